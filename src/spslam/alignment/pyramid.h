@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// The image pyramid that patches are aligned in: each level half the size of the one below, with a border around it.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace spslam {
+
+class AlignmentPyramid {
+ public:
+  static constexpr int kBorder = 24;  // px around each level; a patch whose centre is inside may be read without checks
+
+  AlignmentPyramid() = default;
+  // grey: CV_8UC1, not empty. levels >= 1; fewer are made when the image gets smaller than a patch.
+  AlignmentPyramid(const cv::Mat& grey, int levels);
+
+  int size() const { return static_cast<int>(levels_.size()); }
+  bool empty() const { return levels_.empty(); }
+  // The level without its border; a pixel x of the full-size image lies at x / 2^level.
+  const cv::Mat& level(int i) const { return levels_[i]; }
+
+ private:
+  std::vector<cv::Mat> levels_;  // views into bordered images
+};
+
+}  // namespace spslam

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/alignment/patch_aligner.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+
+#include "spslam/base/random.h"
+
+namespace spslam {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+
+// A sum of sinusoids, so that it can be sampled anywhere exactly; shortest wavelength about 7 px.
+class Texture {
+ public:
+  explicit Texture(std::uint64_t seed) {
+    Random random(seed);
+    for (Wave& wave : waves_) {
+      const double length = random.uniform(7, 40), angle = random.uniform(0, 2 * M_PI);
+      wave = {2 * M_PI / length * std::cos(angle), 2 * M_PI / length * std::sin(angle), random.uniform(0, 2 * M_PI)};
+    }
+  }
+  double operator()(double x, double y) const {
+    double sum = 0;
+    for (const Wave& wave : waves_) sum += std::sin(wave.kx * x + wave.ky * y + wave.phase);
+    return sum;
+  }
+
+ private:
+  struct Wave {
+    double kx, ky, phase;
+  };
+  std::array<Wave, 24> waves_;
+};
+
+// texture(map(pixel)), with gain, offset and noise.
+cv::Mat render(const Texture& texture, const std::function<Eigen::Vector2d(double, double)>& map, double gain = 8,
+               double offset = 128, double noise = 0, std::uint64_t seed = 99) {
+  cv::Mat image(kHeight, kWidth, CV_8UC1);
+  Random random(seed);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const Eigen::Vector2d p = map(x, y);
+      image.at<uchar>(y, x) = cv::saturate_cast<uchar>(offset + gain * texture(p.x(), p.y()) + noise * random.normal());
+    }
+  return image;
+}
+
+const auto kUnmoved = [](double x, double y) { return Eigen::Vector2d(x, y); };
+
+struct Errors {
+  std::vector<double> x, y, normalized;
+  int failed = 0;
+  static double mean(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()); }
+  static double rms(const std::vector<double>& v) {
+    return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0) / static_cast<double>(v.size()));
+  }
+};
+
+Errors align_grid(const AlignmentPyramid& from, const AlignmentPyramid& to, const Eigen::Vector2d& shift,
+                  const Eigen::Vector2f& start_error) {
+  Errors errors;
+  for (float y = 25; y < kHeight - 25; y += 7.3F)
+    for (float x = 25; x < kWidth - 25; x += 7.7F) {
+      const Eigen::Vector2f point(x, y);
+      const Alignment a = align_patch(from, point, to, point + start_error, Eigen::Matrix2f::Identity(), {});
+      if (!a.ok()) {
+        ++errors.failed;
+        continue;
+      }
+      const Eigen::Vector2d e = a.position.cast<double>() - point.cast<double>() - shift;
+      errors.x.push_back(e.x());
+      errors.y.push_back(e.y());
+      errors.normalized.push_back(e.x() / std::sqrt(a.covariance(0, 0)));
+    }
+  return errors;
+}
+
+class Shifts : public testing::TestWithParam<double> {};
+
+TEST_P(Shifts, AreFoundWithoutBiasUnderGainAndOffset) {
+  const Texture texture(3);
+  const Eigen::Vector2d shift(GetParam(), 0.37 * GetParam());
+  const auto moved = [&](double x, double y) { return Eigen::Vector2d(Eigen::Vector2d(x, y) - shift); };
+  const AlignmentPyramid from(render(texture, kUnmoved), 4), to(render(texture, moved, 11, 90), 4);
+  const Errors errors = align_grid(from, to, shift, {0, 0});
+  EXPECT_LE(errors.failed, 2);
+  EXPECT_LT(std::abs(Errors::mean(errors.x)), 0.02);
+  EXPECT_LT(Errors::rms(errors.x), 0.06);
+  EXPECT_LT(Errors::rms(errors.y), 0.06);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pixels, Shifts, testing::Values(0.0, 0.25, 0.5, -0.3, 1.8, 5.1, -9.4));
+
+TEST(PatchAligner, VarianceIsThatOfTheErrors) {
+  const Texture texture(5);
+  const auto moved = [&](double x, double y) { return Eigen::Vector2d(x - 0.4, y); };
+  const AlignmentPyramid from(render(texture, kUnmoved, 3, 128, 3), 3), to(render(texture, moved, 3, 128, 3, 100), 3);
+  const Errors errors = align_grid(from, to, {0.4, 0}, {0, 0});
+  EXPECT_GT(Errors::rms(errors.normalized), 0.5);
+  EXPECT_LT(Errors::rms(errors.normalized), 2.0);
+}
+
+TEST(PatchAligner, WarpedTemplateFollowsZoomAndTurn) {
+  const Texture texture(7);
+  const Eigen::Matrix2d warp = 1.25 * Eigen::Rotation2Dd(0.3).toRotationMatrix();
+  const Eigen::Vector2d centre(80, 60);
+  const auto moved = [&](double x, double y) {
+    return Eigen::Vector2d(centre + warp.inverse() * (Eigen::Vector2d(x, y) - centre));
+  };
+  const AlignmentPyramid from(render(texture, kUnmoved), 3), to(render(texture, moved), 3);
+  const Eigen::Vector2f point(92, 55);
+  const Eigen::Vector2d truth = centre + warp * (point.cast<double>() - centre);
+  const Eigen::Vector2f start = truth.cast<float>() + Eigen::Vector2f(1.5F, -1);
+  const Alignment a = align_patch(from, point, to, start, warp.cast<float>(), {});
+  ASSERT_TRUE(a.ok());
+  EXPECT_LT((a.position.cast<double>() - truth).norm(), 0.1);
+  EXPECT_GT(a.correlation, 0.97F);
+}
+
+TEST(PatchAligner, RefusesFlatForeignAndOutside) {
+  const Texture texture(3), other(4);
+  const AlignmentPyramid from(render(texture, kUnmoved), 3), foreign(render(other, kUnmoved), 3);
+  const AlignmentPyramid flat(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(128)), 3);
+  const Eigen::Matrix2f identity = Eigen::Matrix2f::Identity();
+  EXPECT_EQ(align_patch(flat, {60, 60}, from, {60, 60}, identity, {}).status, AlignmentStatus::kFlat);
+  EXPECT_FALSE(align_patch(from, {60, 60}, flat, {60, 60}, identity, {}).ok());
+  EXPECT_FALSE(align_patch(from, {60, 60}, foreign, {60, 60}, identity, {}).ok());
+  EXPECT_EQ(align_patch(from, {60, 60}, from, {-40, 60}, identity, {}).status, AlignmentStatus::kOutside);
+  EXPECT_EQ(align_patch(from, {-3, 60}, from, {60, 60}, identity, {}).status, AlignmentStatus::kOutside);
+  EXPECT_FALSE(align_patch(from, {60, 60}, from, {60, NAN}, identity, {}).ok());
+  EXPECT_FALSE(align_patch(from, {60, 60}, from, {60, 60}, Eigen::Matrix2f::Zero(), {}).ok());
+}
+
+TEST(AlignmentPyramid, TinyImageHasOneLevel) {
+  EXPECT_EQ(AlignmentPyramid(cv::Mat(1, 1, CV_8UC1, cv::Scalar(9)), 4).size(), 1);
+  EXPECT_EQ(AlignmentPyramid(cv::Mat(100, 100, CV_8UC1, cv::Scalar(9)), 4).size(), 3);
+}
+
+}  // namespace
+}  // namespace spslam
