@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <Eigen/Cholesky>
+
+#include "spslam/optimize/normal_equations.h"
+#include "spslam/optimize/problem.h"
+
+namespace spslam {
+namespace {
+
+constexpr double kLeastInformation = 1e-12;  // m^2; below it a landmark is not observed at all and stays where it is
+constexpr double kLargestDamping = 1e8;
+
+struct Step {
+  Eigen::VectorXd poses, landmarks;
+  bool valid = false;
+};
+
+// Poses' Hessian and gradient with the landmarks eliminated.
+struct Reduced {
+  Eigen::MatrixXd hessian;
+  Eigen::VectorXd gradient;
+};
+
+Eigen::VectorXd inverse_information(const Eigen::VectorXd& hessian, double damping) {
+  return (hessian.array() > kLeastInformation).select(1 / (hessian.array() * (1 + damping)).max(kLeastInformation), 0.0);
+}
+
+Reduced eliminate_landmarks(const NormalEquations& equations, double damping) {
+  const Eigen::VectorXd inverse = inverse_information(equations.landmark_hessian, damping);
+  Reduced reduced;
+  reduced.hessian = equations.pose_hessian;
+  reduced.hessian.diagonal() *= 1 + damping;
+  const Eigen::MatrixXd scaled = inverse.cwiseSqrt().asDiagonal() * equations.mixed;
+  reduced.hessian.selfadjointView<Eigen::Lower>().rankUpdate(scaled.transpose(), -1.0);
+  reduced.gradient = equations.pose_gradient;
+  reduced.gradient.noalias() -= equations.mixed.transpose() * inverse.cwiseProduct(equations.landmark_gradient);
+  return reduced;
+}
+
+Step solve_step(const NormalEquations& equations, double damping) {
+  Step step;
+  const Eigen::VectorXd inverse = inverse_information(equations.landmark_hessian, damping);
+  Eigen::VectorXd landmark_gradient = equations.landmark_gradient;
+  if (equations.pose_gradient.size() > 0) {
+    const Reduced reduced = eliminate_landmarks(equations, damping);
+    const Eigen::LLT<Eigen::MatrixXd> factor(reduced.hessian);
+    if (factor.info() != Eigen::Success) return step;
+    step.poses = factor.solve(-reduced.gradient);
+    landmark_gradient.noalias() += equations.mixed * step.poses;
+  }
+  step.landmarks = -inverse.cwiseProduct(landmark_gradient);
+  step.valid = step.poses.allFinite() && step.landmarks.allFinite();
+  return step;
+}
+
+void apply(const Step& step, const PoseColumns& columns, Problem& problem) {
+  for (std::size_t i = 0; i < problem.poses.size(); ++i)
+    if (const int column = columns.of_pose[i]; column >= 0) {
+      SE3& pose = problem.poses[i].camera_from_world;
+      pose = (SE3::exp(step.poses.segment<6>(column)) * pose).normalized();
+    }
+  for (std::size_t l = 0; l < problem.landmarks.size(); ++l)
+    problem.landmarks[l].inverse_depth += step.landmarks[static_cast<Eigen::Index>(l)];
+}
+
+// The values that a step changes, to go back to.
+struct Values {
+  explicit Values(const Problem& problem) : poses(problem.poses) {
+    for (const LandmarkVariable& landmark : problem.landmarks) inverse_depths.push_back(landmark.inverse_depth);
+  }
+  void restore(Problem& problem) const {
+    problem.poses = poses;
+    for (std::size_t l = 0; l < inverse_depths.size(); ++l) problem.landmarks[l].inverse_depth = inverse_depths[l];
+  }
+  std::vector<PoseVariable> poses;
+  std::vector<double> inverse_depths;
+};
+
+Eigen::MatrixXd pose_covariance(const NormalEquations& equations) {
+  if (equations.pose_gradient.size() == 0) return {};
+  const Reduced reduced = eliminate_landmarks(equations, 0);
+  const Eigen::LLT<Eigen::MatrixXd> factor(reduced.hessian);
+  if (factor.info() != Eigen::Success) return {};
+  return factor.solve(Eigen::MatrixXd::Identity(reduced.hessian.rows(), reduced.hessian.cols()));
+}
+
+}  // namespace
+
+SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_covariance) {
+  const PoseColumns columns(problem);
+  NormalEquations equations, trial;
+  build_normal_equations(problem, columns, options, equations);
+  SolveSummary summary;
+  summary.status = SolveStatus::kIterationsUsedUp;
+  summary.initial_cost = summary.final_cost = equations.cost;
+  double damping = options.initial_damping;
+  while (summary.iterations < options.iterations) {
+    ++summary.iterations;
+    const Step step = solve_step(equations, damping);
+    const Values before(problem);
+    if (step.valid) {
+      apply(step, columns, problem);
+      build_normal_equations(problem, columns, options, trial);
+    }
+    if (step.valid && trial.cost <= equations.cost) {
+      const double decrease = equations.cost - trial.cost;
+      std::swap(equations, trial);
+      damping = std::max(damping / 10, 1e-12);
+      if (decrease <= options.relative_decrease * trial.cost) {
+        summary.status = SolveStatus::kConverged;
+        break;
+      }
+    } else {
+      before.restore(problem);
+      damping = std::max(damping * 10, 1e-6);
+      if (damping > kLargestDamping) {
+        summary.status = step.valid ? SolveStatus::kConverged : SolveStatus::kFailed;
+        break;
+      }
+    }
+  }
+  summary.final_cost = equations.cost;
+  if (!std::isfinite(summary.final_cost)) summary.status = SolveStatus::kFailed;
+  if (want_covariance) summary.covariance = pose_covariance(equations);
+  return summary;
+}
+
+double total_cost(const Problem& problem, const SolverOptions& options) {
+  NormalEquations equations;
+  build_normal_equations(problem, PoseColumns(problem), options, equations);
+  return equations.cost;
+}
+
+}  // namespace spslam
