@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// What a user of the installed library writes: a rig, a motion, an option set by name, an error that is caught.
+
+#include <spslam/base/se3.h>
+#include <spslam/camera/stereo_rig.h>
+
+#include <cstdio>
+
+int main() {
+  spslam::StereoRig rig;
+  rig.fx = rig.fy = 360;
+  rig.cx = 320;
+  rig.cy = 180;
+  rig.baseline = 0.08;
+  rig.width = 640;
+  rig.height = 360;
+  rig.check();
+
+  spslam::Vector6d twist;
+  twist << 0.1, 0, 0.5, 0, 0.02, 0;
+  const spslam::SE3 there = spslam::SE3::exp(twist);
+  const double error = (there * there.inverse()).log().norm();
+  std::printf("depth at 2.88 px: %.3f m, error of a motion and its inverse: %g\n", rig.depth(2.88), error);
+  return rig.depth(2.88) > 9.999 && rig.depth(2.88) < 10.001 && error < 1e-12 ? 0 : 1;
+}
