@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// Rotated BRIEF: 256 comparisons of two smoothed pixels each, the pattern turned to the feature's orientation
+// (Calonder et al., "BRIEF: binary robust independent elementary features", 2010; Rublee et al. 2011). The
+// pattern is our own: pairs of points from an isotropic Gaussian of variance S^2 / 25 for a patch of side S =
+// 31 (Calonder's G II), drawn by a generator with a fixed seed; so any program can make it again, and it is
+// the same for ever (docs/ALGORITHM.md).
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "spslam/features/orientation.h"
+#include "spslam/features/types.h"
+
+namespace spslam {
+
+constexpr int kAngleBins = 64;  // rotations of the pattern that are kept ready
+
+struct BriefPair {
+  float ax, ay, bx, by;  // px from the centre, within kPatchRadius; the bit is I(a) < I(b)
+};
+
+// The pattern at angle 0.
+const std::array<BriefPair, 256>& brief_pattern();
+
+// Smooths a CV_8UC1 level for describing: a 7 x 7 Gaussian of standard deviation 2 px in integers, edges
+// repeated.
+void smooth(const cv::Mat& grey, cv::Mat& smoothed);
+
+// The descriptor of a patch of the smoothed level, turned by `angle` in rad.
+Descriptor describe_patch(const Patch& smoothed, float angle);
+
+}  // namespace spslam

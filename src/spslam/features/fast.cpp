@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "spslam/features/fast.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "spslam/base/simd.h"
+
+namespace spslam {
+namespace {
+
+using Byte = std::uint8_t;
+using Ring = std::array<Byte, 16>;
+using Half = std::array<Byte, 8>;
+
+constexpr Byte low(Byte a, Byte b) {
+  return a < b ? a : b;
+}
+constexpr Byte high(Byte a, Byte b) {
+  return a < b ? b : a;
+}
+
+// The largest minimum (inner = low, outer = high) or the smallest maximum (the reverse) over the 16 arcs of
+// nine. The arcs that begin at k and at k + 1 share eight pixels, so eight windows of eight suffice.
+template <Byte (*inner)(Byte, Byte), Byte (*outer)(Byte, Byte), std::size_t... K>
+inline Byte best_arc(const Ring& d, std::index_sequence<K...>) {
+  const Half two = {inner(d[2 * K + 1], d[(2 * K + 2) % 16])...};
+  const Half four = {inner(two[K], two[(K + 1) % 8])...};
+  const Half eight = {inner(four[K], four[(K + 2) % 8])...};
+  const Half nine = {inner(eight[K], outer(d[2 * K], d[(2 * K + 9) % 16]))...};
+  return outer(outer(outer(nine[0], nine[1]), outer(nine[2], nine[3])),
+               outer(outer(nine[4], nine[5]), outer(nine[6], nine[7])));
+}
+
+SPSLAM_SIMD void score_row(const Byte* centre, std::ptrdiff_t stride, int count, Byte minimum, Byte* scores) {
+  const Byte *m3 = centre - 3 * stride, *m2 = centre - 2 * stride, *m1 = centre - stride;
+  const Byte *p1 = centre + stride, *p2 = centre + 2 * stride, *p3 = centre + 3 * stride;
+  for (int x = 0; x < count; ++x) {
+    const Ring ring = {p3[x],         p3[x + 1], p2[x + 2], p1[x + 3], centre[x + 3], m1[x + 3],
+                       m2[x + 2],     m3[x + 1], m3[x],     m3[x - 1], m2[x - 2],     m1[x - 3],
+                       centre[x - 3], p1[x - 3], p2[x - 2], p3[x - 1]};
+    const Byte bright = best_arc<low, high>(ring, std::make_index_sequence<8>{});
+    const Byte dark = best_arc<high, low>(ring, std::make_index_sequence<8>{});
+    const Byte c = centre[x];
+    const Byte above = static_cast<Byte>(high(bright, c) - c);
+    const Byte below = static_cast<Byte>(c - low(dark, c));
+    const Byte score = high(above, below);
+    scores[x] = score > minimum ? score : Byte{0};
+  }
+}
+
+// Keeps what is above the neighbours before it in raster order and not below those after it.
+SPSLAM_SIMD void keep_maxima(const Byte* s, std::ptrdiff_t stride, int count, Byte* kept) {
+  const Byte *up = s - stride, *down = s + stride;
+  for (int x = 0; x < count; ++x) {
+    const Byte before = high(high(up[x - 1], up[x]), high(up[x + 1], s[x - 1]));
+    const Byte after = high(high(down[x - 1], down[x]), high(down[x + 1], s[x + 1]));
+    const Byte c = s[x];
+    const Byte first = c > before ? c : Byte{0};
+    kept[x] = c >= after ? first : Byte{0};
+  }
+}
+
+}  // namespace
+
+void fast_scores(const cv::Mat& grey, int minimum, cv::Mat& scores) {
+  scores.create(grey.size(), CV_8UC1);
+  const int width = grey.cols;
+  for (int y = 0; y < grey.rows; ++y) {
+    Byte* row = scores.ptr<Byte>(y);
+    if (y < 3 || y >= grey.rows - 3 || width < 7) {
+      std::memset(row, 0, width);
+      continue;
+    }
+    std::memset(row, 0, 3);
+    std::memset(row + width - 3, 0, 3);
+    score_row(grey.ptr<Byte>(y) + 3, static_cast<std::ptrdiff_t>(grey.step), width - 6,
+              static_cast<Byte>(minimum), row + 3);
+  }
+}
+
+void collect_corners(const cv::Mat& scores, int border, std::vector<Corner>& corners) {
+  corners.clear();
+  const int margin = std::max(border, 1);
+  const int count = scores.cols - 2 * margin;
+  if (count < 1) return;
+  std::vector<Byte> kept((count + 7) / 8 * 8, Byte{0});
+  for (int y = margin; y < scores.rows - margin; ++y) {
+    keep_maxima(scores.ptr<Byte>(y) + margin, static_cast<std::ptrdiff_t>(scores.step), count, kept.data());
+    for (int x = 0; x < count; x += 8) {
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, &kept[x], sizeof eight);
+      while (eight != 0) {
+        const int byte = std::countr_zero(eight) / 8;
+        const auto at = static_cast<std::int16_t>(margin + x + byte);
+        corners.push_back({at, static_cast<std::int16_t>(y), kept[x + byte]});
+        eight &= ~(std::uint64_t{0xFF} << (8 * byte));
+      }
+    }
+  }
+}
+
+cv::Point2f refine_corner(const cv::Mat& scores, const Corner& corner) {
+  const auto vertex = [](int before, int at, int after) {
+    const int curvature = 2 * at - before - after;
+    if (curvature <= 0) return 0.0F;
+    const float offset = 0.5F * static_cast<float>(after - before) / static_cast<float>(curvature);
+    return std::clamp(offset, -0.5F, 0.5F);
+  };
+  const Byte* row = scores.ptr<Byte>(corner.y) + corner.x;
+  const auto stride = static_cast<std::ptrdiff_t>(scores.step);
+  return {vertex(row[-1], row[0], row[1]), vertex(row[-stride], row[0], row[stride])};
+}
+
+}  // namespace spslam
