@@ -69,6 +69,10 @@ function(spslam_umbrella)
   add_library(spslam INTERFACE)
   add_library(spslam::spslam ALIAS spslam)
   target_link_libraries(spslam INTERFACE ${libraries})
+  # Where scripts and documentation look for the program.
+  if(TARGET spslam_cli)
+    set_target_properties(spslam_cli PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  endif()
   install(TARGETS spslam ${libraries} EXPORT spslamTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
           FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE)

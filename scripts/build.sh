@@ -7,6 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
 [ $# -eq 0 ] || shift
-cmake --preset "$preset" >build.log 2>&1 || { cat build.log >&2; rm -f build.log; exit 1; }
-rm -f build.log
+mkdir -p build
+log=build/configure-$preset.log
+cmake --preset "$preset" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 cmake --build --preset "$preset" "$@"

@@ -38,7 +38,8 @@ check_paths() {  # PAGE
 declare -A help_of
 help_for() {  # SUBCOMMAND: its help, asked once; "" if there is no such subcommand
   if [ -z "${help_of[$1]+asked}" ]; then
-    help_of[$1]=$("$program" "$1" --help 2>/dev/null) || help_of[$1]=""
+    help_of[$1]=""
+    if grep -q -E "^  $1( |\$)" <<<"$subcommands"; then help_of[$1]=$("$program" "$1" --help); fi
   fi
 }
 
@@ -60,8 +61,9 @@ check_commands() {  # PAGE
   done < <(code_of "$1" | grep -o -E '(^|[ /;(])spslam +[a-z][a-z-]+( [^|;&#]*)?' | sed -E 's/^[ \/;(]//' | sort -u)
 }
 
-options=""
+options="" subcommands=""
 if [ -x "$program" ]; then
+  subcommands=$("$program" --help | sed -n '/^Subcommands:/,$p')
   options=$("$program" config --print 2>/dev/null) || complain "spslam config --print fails"
 else
   echo "no program at $program: commands are not checked"
