@@ -3,7 +3,6 @@
 #include "spslam/features/fast.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 #include <utility>
@@ -14,24 +13,23 @@ namespace spslam {
 namespace {
 
 using Byte = std::uint8_t;
-using Ring = std::array<Byte, 16>;
-using Half = std::array<Byte, 8>;
 
-constexpr Byte low(Byte a, Byte b) {
+// Inlined by force, and no std::array: within a function of several versions the compiler calls what it would else inline.
+[[gnu::always_inline]] constexpr Byte low(Byte a, Byte b) {
   return a < b ? a : b;
 }
-constexpr Byte high(Byte a, Byte b) {
+[[gnu::always_inline]] constexpr Byte high(Byte a, Byte b) {
   return a < b ? b : a;
 }
 
-// The largest minimum (inner = low, outer = high) or the smallest maximum (the reverse) over the 16 arcs of
-// nine. The arcs that begin at k and at k + 1 share eight pixels, so eight windows of eight suffice.
+// The largest minimum (inner = low, outer = high) or the smallest maximum (the reverse) over the 16 arcs of nine. The arcs
+// that begin at k and at k + 1 share eight pixels, so eight windows of eight suffice.
 template <Byte (*inner)(Byte, Byte), Byte (*outer)(Byte, Byte), std::size_t... K>
-inline Byte best_arc(const Ring& d, std::index_sequence<K...>) {
-  const Half two = {inner(d[2 * K + 1], d[(2 * K + 2) % 16])...};
-  const Half four = {inner(two[K], two[(K + 1) % 8])...};
-  const Half eight = {inner(four[K], four[(K + 2) % 8])...};
-  const Half nine = {inner(eight[K], outer(d[2 * K], d[(2 * K + 9) % 16]))...};
+[[gnu::always_inline]] inline Byte best_arc(const Byte (&d)[16], std::index_sequence<K...>) {
+  const Byte two[8] = {inner(d[2 * K + 1], d[(2 * K + 2) % 16])...};
+  const Byte four[8] = {inner(two[K], two[(K + 1) % 8])...};
+  const Byte eight[8] = {inner(four[K], four[(K + 2) % 8])...};
+  const Byte nine[8] = {inner(eight[K], outer(d[2 * K], d[(2 * K + 9) % 16]))...};
   return outer(outer(outer(nine[0], nine[1]), outer(nine[2], nine[3])),
                outer(outer(nine[4], nine[5]), outer(nine[6], nine[7])));
 }
@@ -40,7 +38,7 @@ SPSLAM_SIMD void score_row(const Byte* centre, std::ptrdiff_t stride, int count,
   const Byte *m3 = centre - 3 * stride, *m2 = centre - 2 * stride, *m1 = centre - stride;
   const Byte *p1 = centre + stride, *p2 = centre + 2 * stride, *p3 = centre + 3 * stride;
   for (int x = 0; x < count; ++x) {
-    const Ring ring = {p3[x],         p3[x + 1], p2[x + 2], p1[x + 3], centre[x + 3], m1[x + 3],
+    const Byte ring[16] = {p3[x],         p3[x + 1], p2[x + 2], p1[x + 3], centre[x + 3], m1[x + 3],
                        m2[x + 2],     m3[x + 1], m3[x],     m3[x - 1], m2[x - 2],     m1[x - 3],
                        centre[x - 3], p1[x - 3], p2[x - 2], p3[x - 1]};
     const Byte bright = best_arc<low, high>(ring, std::make_index_sequence<8>{});

@@ -15,7 +15,7 @@ struct OrbOptions {
   double level_exponent = 2.0;
   int start_threshold = 20;
   int minimum_threshold = 7;
-  int cell_size = 32;
+  int cell_size = 64;
   int spacing = 4;
   int border = 16;
   bool subpixel = true;
