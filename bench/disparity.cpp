@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// spslam_bench_disparity: which way of measuring disparity is best? Errors against rendered truth by band of
+// disparity, for every method of the stereo stage, as Markdown on stdout. On sequences without depth: row
+// offset and counts only.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "disparity_score.h"
+#include "disparity_truth.h"
+#include "spslam/base/error.h"
+#include "spslam/stereo/stereo.h"
+
+namespace {
+
+using namespace spslam;         // NOLINT
+using namespace spslam::bench;  // NOLINT
+
+struct Settings {
+  std::vector<std::string> sequences;
+  std::vector<std::string> methods;
+  std::vector<std::string> changes;  // key=value on top of every method
+  std::string csv;
+  int every = 20;
+  int count = 1500;
+  int edge_radius = 3;       // px
+  double edge_range = 0.25;  // px
+};
+
+struct Method {
+  std::string name;
+  StereoOptions options;
+};
+
+struct Prepared {
+  BenchFrame frame;
+  Features left, right;
+  std::vector<cv::Mat> left_levels, right_levels;
+  AlignmentPyramid left_alignment, right_alignment;
+};
+
+Method method(const std::string& name, std::initializer_list<std::pair<const char*, const char*>> changes) {
+  Method m{name, {}};
+  for (const auto& [key, value] : changes) set_option(m.options, key, value);
+  return m;
+}
+
+std::vector<Method> all_methods() {
+  return {method("coarse", {{"block_matching", "false"}, {"alignment", "false"}}),
+          method("SAD", {{"interpolation", "none"}, {"alignment", "false"}}),
+          method("SAD row, parabola",
+                 {{"search_2d", "false"}, {"interpolation", "parabola"}, {"alignment", "false"}}),
+          method("SAD quadric", {{"alignment", "false"}}),
+          method("SAD quadric, raw", {{"match_brightness", "false"}, {"alignment", "false"}}),
+          method("SAD equiangular", {{"interpolation", "equiangular"}, {"alignment", "false"}}),
+          method("alignment of coarse", {{"block_matching", "false"}, {"align_unmatched", "false"}}),
+          method("alignment of SAD", {{"align_unmatched", "false"}}),
+          method("alignment of all", {})};
+}
+
+std::vector<cv::Mat> levels_of(const cv::Mat& image) {
+  std::vector<cv::Mat> levels{image};
+  for (int i = 1; i < 8; ++i) {
+    const double shrink = std::pow(1.2, -i);
+    cv::Mat level;
+    cv::resize(levels.back(), level,
+               cv::Size(static_cast<int>(std::lround(image.cols * shrink)),
+                        static_cast<int>(std::lround(image.rows * shrink))));
+    levels.push_back(level);
+  }
+  return levels;
+}
+
+Features extract(const cv::Mat& image, int count) {
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+  cv::ORB::create(count, 1.2F, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE, 31, 10)
+      ->detectAndCompute(image, {}, keypoints, descriptors);
+  Features features;
+  for (int i = 0; i < static_cast<int>(keypoints.size()); ++i) {
+    const cv::KeyPoint& k = keypoints[i];
+    features.keypoints.push_back({k.pt.x, k.pt.y, k.angle, k.response, static_cast<std::uint8_t>(k.octave)});
+    Descriptor d;
+    std::memcpy(d.data(), descriptors.ptr(i), sizeof d);
+    features.descriptors.push_back(d);
+  }
+  return features;
+}
+
+std::vector<Prepared> prepare(const std::string& sequence, const Settings& settings) {
+  std::vector<Prepared> all;
+  for (BenchFrame& frame : read_frames(sequence, settings.every)) {
+    Prepared p;
+    p.left = extract(frame.left, settings.count), p.right = extract(frame.right, settings.count);
+    p.left_levels = levels_of(frame.left), p.right_levels = levels_of(frame.right);
+    const int levels = AlignmentOptions().levels;
+    p.left_alignment = AlignmentPyramid(frame.left, levels),
+    p.right_alignment = AlignmentPyramid(frame.right, levels);
+    p.frame = std::move(frame);
+    all.push_back(std::move(p));
+  }
+  return all;
+}
+
+struct Result {
+  Score smooth, edge;
+  std::vector<double> row_offsets, milliseconds;
+  std::array<int, 10> statuses{};
+  int points = 0;
+};
+
+void judge(const Prepared& p, const std::vector<StereoMeasurement>& measured, const Settings& settings,
+           Result& result, std::string& csv) {
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const StereoMeasurement& m = measured[i];
+    ++result.points;
+    ++result.statuses[static_cast<int>(m.status)];
+    if (m.ok()) result.row_offsets.push_back(m.row_offset);
+    if (p.frame.disparity.empty()) continue;
+    const Keypoint& k = p.left.keypoints[i];
+    const float aim = m.ok() ? m.disparity : std::nanf("");
+    const TrueDisparity truth = true_disparity(p.frame.disparity, k.x, k.y, aim, settings.edge_radius,
+                                               static_cast<float>(settings.edge_range));
+    if (!truth.known) continue;
+    Score& score = truth.edge ? result.edge : result.smooth;
+    ++score.points[band_of(truth.value)];
+    if (!m.ok()) continue;
+    score.errors.push_back({truth.value, m.disparity - truth.value, m.sigma});
+    if (!settings.csv.empty())
+      csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", p.frame.number, k.x, k.y, static_cast<int>(k.octave),
+                         static_cast<int>(truth.edge), truth.value, m.disparity - truth.value, m.sigma,
+                         m.row_offset);
+  }
+}
+
+Result run(const std::vector<Prepared>& frames, const Method& m, const Settings& settings, std::string& csv) {
+  Result result;
+  for (const Prepared& p : frames) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto measured = measure_stereo({p.left, p.left_levels, &p.left_alignment},
+                                         {p.right, p.right_levels, &p.right_alignment}, m.options);
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    result.milliseconds.push_back(time.count());
+    judge(p, measured, settings, result, csv);
+  }
+  return result;
+}
+
+void report_summary(const std::string& sequence, const std::vector<Method>& methods,
+                    const std::vector<Result>& results) {
+  fmt::print(
+      "\n## {}\n\n| method | keypoints a frame | measured % | row offset median px | stage ms (least, "
+      "median) |",
+      sequence);
+  fmt::print(" statuses |\n|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const Result& r = results[i];
+    std::string statuses;
+    for (std::size_t s = 0; s < r.statuses.size(); ++s)
+      if (r.statuses[s] > 0)
+        statuses += fmt::format("{} {} ", to_string(static_cast<StereoStatus>(s)), r.statuses[s]);
+    fmt::print("| {} | {:.0f} | {:.0f} | {:+.3f} | {:.2f}, {:.2f} | {} |\n", methods[i].name,
+               static_cast<double>(r.points) / static_cast<double>(r.milliseconds.size()),
+               100.0 * static_cast<double>(r.row_offsets.size()) / r.points, median(r.row_offsets),
+               *std::min_element(r.milliseconds.begin(), r.milliseconds.end()), median(r.milliseconds),
+               statuses);
+  }
+}
+
+void add(Score& all, const Score& one) {
+  all.errors.insert(all.errors.end(), one.errors.begin(), one.errors.end());
+  for (std::size_t band = 0; band < all.points.size(); ++band) all.points[band] += one.points[band];
+}
+
+void report_errors(const std::vector<Method>& methods, const std::vector<Result>& results) {
+  for (const bool edge : {false, true}) {
+    fmt::print("\n## All sequences with depth: {}\n\n{}",
+               edge ? "points at depth edges (error against the nearest surface of the patch)"
+                    : "points whose patch is one plane",
+               table_head());
+    for (std::size_t i = 0; i < methods.size(); ++i)
+      fmt::print("{}", table_rows(methods[i].name, edge ? results[i].edge : results[i].smooth));
+  }
+}
+
+void bench_main(const Settings& settings) {
+  std::vector<Method> methods;
+  for (const Method& m : all_methods())
+    if (settings.methods.empty() || std::count(settings.methods.begin(), settings.methods.end(), m.name))
+      methods.push_back(m);
+  for (const std::string& change : settings.changes) {
+    const auto equals = change.find('=');
+    if (equals == std::string::npos) throw OptionError("--set " + change + ": give key=value");
+    for (Method& m : methods) set_option(m.options, change.substr(0, equals), change.substr(equals + 1));
+  }
+  std::vector<Result> pooled(methods.size());
+  std::string csv = "frame,x,y,octave,edge,truth,error,sigma,row_offset\n";
+  for (const std::string& sequence : settings.sequences) {
+    const std::vector<Prepared> frames = prepare(sequence, settings);
+    if (frames.empty()) throw InputError(sequence + " has no frames to judge");
+    std::vector<Result> results;
+    for (const Method& m : methods) results.push_back(run(frames, m, settings, csv));
+    report_summary(sequence.substr(sequence.find_last_of('/') + 1), methods, results);
+    for (std::size_t i = 0; i < methods.size(); ++i)
+      add(pooled[i].smooth, results[i].smooth), add(pooled[i].edge, results[i].edge);
+  }
+  if (!pooled.empty() && !pooled[0].smooth.errors.empty()) report_errors(methods, pooled);
+  if (!settings.csv.empty() && !(std::ofstream(settings.csv) << csv))
+    throw OutputError("cannot write " + settings.csv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  CLI::App app("Errors of disparity by method and band");
+  app.add_option("sequences", settings.sequences, "KITTI folders, with depth/ for errors")->required();
+  app.add_option("--method", settings.methods, "only these");
+  app.add_option("--set", settings.changes, "stereo option key=value, for all methods");
+  app.add_option("--csv", settings.csv, "write every error here");
+  app.add_option("--every", settings.every, "frames, where there is no depth");
+  app.add_option("--count", settings.count, "features an image");
+  app.add_option("--edge-radius", settings.edge_radius, "px, neighbourhood in which a depth edge counts");
+  app.add_option("--edge-range", settings.edge_range, "px, disparity difference that makes an edge");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    bench_main(settings);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
