@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// What a format's reader finds in a folder of images; from there on all formats are one Dataset. For io/
+// only.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "spslam/io/calibration.h"
+#include "spslam/io/dataset.h"
+#include "spslam/io/trajectory.h"
+
+namespace spslam {
+
+struct ImageSequence {
+  ImageSequence(DatasetFormat its_format, std::filesystem::path its_folder)
+      : format(its_format), folder(std::move(its_folder)) {}
+
+  DatasetFormat format;
+  std::filesystem::path folder;
+  std::vector<double> times;                       // s
+  std::vector<std::filesystem::path> left, right;  // as many as times; some files may be missing
+  StereoCalibration calibration;
+  std::filesystem::path calibration_file;  // for messages
+  std::optional<Trajectory> ground_truth;  // of the left camera as calibrated, before rectification
+  bool planar_ground_truth = false;
+  int unpaired = 0;
+};
+
+// One reader a format. Each throws InputError if the folder lacks what it needs.
+ImageSequence find_kitti(const std::filesystem::path& folder, const DatasetOptions& options);
+ImageSequence find_euroc(const std::filesystem::path& folder, const DatasetOptions& options);
+ImageSequence find_usvinland(const std::filesystem::path& folder, const DatasetOptions& options);
+ImageSequence find_plain(const std::filesystem::path& folder, const DatasetOptions& options);
+
+// Fills times, left and right from two folders of images whose names correspond. A hole in the middle of one
+// eye is a frame with a missing file; an eye that ends early, or another number of times than of frames, is
+// an InputError.
+void find_frames(ImageSequence& sequence, const std::filesystem::path& left,
+                 const std::filesystem::path& right, const std::filesystem::path& times,
+                 const DatasetOptions& options);
+
+// Fills calibration from options.calibration or, without it, the first of the folder's files that exists.
+void find_calibration(ImageSequence& sequence, std::span<const std::filesystem::path> candidates,
+                      const DatasetOptions& options);
+
+// Checks calibration and first images against each other.
+std::unique_ptr<Dataset> make_image_dataset(ImageSequence sequence, const DatasetOptions& options);
+
+}  // namespace spslam
