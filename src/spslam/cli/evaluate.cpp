@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// `spslam evaluate`: how far an estimated trajectory is from the true one.
+
+#include <cstdio>
+
+#include "spslam/cli/commands.h"
+#include "spslam/eval/evaluation.h"
+#include "spslam/eval/trajectory_pair.h"
+
+namespace spslam {
+namespace {
+
+struct EvaluateArguments {
+  TrajectoryPairFiles files;
+  EvaluationOptions options;
+  bool kitti = false;
+  bool json = false;
+};
+
+int evaluate_files(const EvaluateArguments& arguments) {
+  const TrajectoryPair pair = read_trajectory_pair(arguments.files);
+  EvaluationOptions options = arguments.options;
+  options.association.by_index = pair.by_index;
+  const Evaluation evaluation = evaluate(pair.estimate, pair.truth, options);
+  const std::string text =
+      arguments.json ? json_report(evaluation) : brief_report(evaluation, {.kitti_lengths = arguments.kitti});
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+void add_file_options(CLI::App& command, TrajectoryPairFiles& files) {
+  command.add_option("ESTIMATE", files.estimate, "Estimated trajectory")->required();
+  command.add_option("GROUNDTRUTH", files.truth, "True trajectory")->required();
+  const char* formats = "Format of the estimate: auto, tum, kitti, euroc or usvinland";
+  command.add_option("--format-estimate", files.estimate_format, formats)
+      ->transform(enum_names<TrajectoryFormat>())
+      ->type_name("FORMAT");
+  command.add_option("--format-truth", files.truth_format, "Format of the ground truth, likewise")
+      ->transform(enum_names<TrajectoryFormat>())
+      ->type_name("FORMAT");
+  command
+      .add_option("--times", files.times,
+                  "Times of the rows of a KITTI file, one a line (default: times.txt beside it)")
+      ->type_name("FILE");
+}
+
+void add_metric_options(CLI::App& command, EvaluationOptions& options) {
+  command
+      .add_option("--align", options.align,
+                  "How the estimate is laid on the truth: se3 (default), sim3 or none")
+      ->transform(enum_names<AlignMode>())
+      ->type_name("MODE");
+  command.add_flag("--planar", options.planar, "In the horizontal plane only, for truth without heights");
+  const char* up = "Axis that points up in the estimate's world (planar): auto, x, y, z, -x, -y or -z";
+  command.add_option("--up-estimate", options.up_estimate, up)
+      ->transform(enum_names<UpAxis>())
+      ->type_name("AXIS");
+  command.add_option("--up-truth", options.up_truth, "The same of the truth's world")
+      ->transform(enum_names<UpAxis>())
+      ->type_name("AXIS");
+  AssociationOptions& association = options.association;
+  command.add_option("--tolerance", association.tolerance, "Largest difference of the times of a pair in s")
+      ->capture_default_str();
+  command.add_option("--offset", association.offset, "Seconds to add to the times of the truth")
+      ->capture_default_str();
+  command.add_flag("--interpolate", association.interpolate,
+                   "Interpolate the truth at the estimate's times, for truth slower than the camera");
+  command
+      .add_option("--rpe-interval", options.rpe_interval, "Seconds over which the relative error is measured")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("evaluate", "Compare a trajectory with the ground truth: ATE, RPE, KITTI metric");
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  add_file_options(*command, arguments->files);
+  add_metric_options(*command, arguments->options);
+  command->add_flag("--kitti", arguments->kitti, "The KITTI metric of each length too");
+  command->add_flag("--json", arguments->json, "Print one JSON object instead of text");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return evaluate_files(*arguments); }; });
+}
+
+}  // namespace spslam

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "spslam/base/error.h"
+#include "spslam/cli/commands.h"
+
+namespace spslam {
+namespace {
+
+// The only place that configures logging: the library uses whatever logger its process has.
+void configure_logging(const std::string& level) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("spslam"));
+  spdlog::set_pattern("%H:%M:%S.%e %^%l%$ %v");
+  spdlog::set_level(spdlog::level::from_str(level));
+}
+
+int fail(const char* message, int exit_code) {
+  std::fprintf(stderr, "spslam: %s\n", message);
+  return exit_code;
+}
+
+void add_commands(CLI::App& app, Command& chosen) {
+  add_evaluate(app, chosen);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("SP-SLAM: stereo visual SLAM for boats close to the shore", "spslam");
+  app.set_version_flag("--version", "spslam " SPSLAM_VERSION);
+  app.set_help_all_flag("--help-all", "Print the help of every subcommand too");
+  std::string level = "warning";
+  app.add_option("--log-level", level, "What is logged to the terminal (stderr)")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
+      ->capture_default_str();
+  Command chosen;
+  add_commands(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    return fail(usage_message(app, error).c_str(), kUsageError);
+  }
+  if (!chosen) {
+    std::fputs(app.help().c_str(), stderr);
+    return kUsageError;
+  }
+  configure_logging(level);
+  return chosen();
+}
+
+}  // namespace
+}  // namespace spslam
+
+int main(int argc, char** argv) {
+  try {
+    return spslam::run(argc, argv);
+  } catch (const spslam::OptionError& error) {
+    return spslam::fail(error.what(), spslam::kUsageError);
+  } catch (const std::exception& error) {
+    return spslam::fail(error.what(), 1);
+  }
+}

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/base/options.h"
+#include "spslam/cli/commands.h"
+
+namespace spslam {
+namespace {
+
+const CLI::App& deepest_chosen(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  return chosen.empty() ? app : deepest_chosen(*chosen.front());
+}
+
+std::vector<std::string> option_flags(const CLI::App& app) {
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+  return flags;
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(subcommand->get_name());
+  return names;
+}
+
+std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_name(word, known);
+  return "unknown " + kind + " '" + word + "'" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+}
+
+}  // namespace
+
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& chosen = deepest_chosen(app);
+  const std::string help =
+      " See `" + (&chosen == &app ? "spslam" : "spslam " + chosen.get_name()) + " --help`.";
+  const std::vector<std::string> extra = app.remaining(true);
+  for (const std::string& word : extra)
+    if (word.size() > 1 && word[0] == '-')
+      return unknown("option", word.substr(0, word.find('=')), option_flags(chosen)) + help;
+  if (!extra.empty() && &chosen == &app)
+    return unknown("subcommand", extra.front(), subcommand_names(app)) + help;
+  if (!extra.empty()) return "unexpected argument '" + extra.front() + "'." + help;
+  return std::string(error.what()) + "." + help;
+}
+
+}  // namespace spslam

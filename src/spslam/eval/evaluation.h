@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// One call from two trajectories to every figure: association, alignment, errors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spslam/eval/association.h"
+#include "spslam/eval/planar.h"
+#include "spslam/eval/trajectory_error.h"
+#include "spslam/eval/umeyama.h"
+
+namespace spslam {
+
+struct EvaluationOptions {
+  AssociationOptions association;
+  AlignMode align = AlignMode::kSe3;
+  bool planar = false;
+  UpAxis up_estimate = UpAxis::kAuto;
+  UpAxis up_truth = UpAxis::kAuto;
+  double rpe_interval = 1;
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.group("association", self.association);
+    visit(self.align, {"align", "", "none, se3 (rigid) or sim3 (rigid and scale)"});
+    visit(self.planar, {"planar", "", "align and measure in the horizontal plane only"});
+    visit(self.up_estimate, {"up_estimate", "", "axis that points up in the estimate's world (planar)"});
+    visit(self.up_truth, {"up_truth", "", "axis that points up in the truth's world (planar)"});
+    visit(self.rpe_interval,
+          {"rpe_interval", "s", "time over which the relative error is measured", 1e-3, 1e6});
+  }
+};
+
+struct Evaluation {
+  EvaluationOptions options;
+  std::size_t estimate_poses = 0;
+  std::size_t truth_poses = 0;
+  std::vector<AssociatedPose>
+      poses;                       // in the world of the truth (planar: its levelled world), scaled if sim3
+  double estimate_length = 0;      // m, of the associated poses, before any scaling
+  double truth_length = 0;         // m
+  double duration = 0;             // s, from the first associated pose to the last; 0 by index
+  Similarity truth_from_estimate;  // as applied; planar: between the levelled worlds
+  double scale_ratio = 0;  // the factor by which the estimate would have to be scaled (Sim(3)); NaN: unknown
+  AteResult ate;
+  RpeResult rpe_per_second;        // no motion if by index
+  RpeResult rpe_per_frame;         // between neighbouring associated poses
+  KittiResult kitti;               // always without alignment and scale
+  std::vector<std::string> notes;  // what a reader of the figures must know, such as a degenerate alignment
+};
+
+// Throws InputError if fewer than three poses can be associated, OptionError if an option is out of range.
+Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const EvaluationOptions& options);
+
+struct ReportStyle {
+  bool kitti_lengths = false;  // the KITTI metric of each length too
+};
+// A few lines of text for a terminal.
+std::string brief_report(const Evaluation& evaluation, const ReportStyle& style = {});
+// One JSON object, indented, with a newline at its end; a figure that does not exist is null.
+std::string json_report(const Evaluation& evaluation);
+
+}  // namespace spslam
