@@ -5,7 +5,7 @@
 # `spslam`, a key of --set.
 #   scripts/check_docs.sh [PROGRAM]      PROGRAM is build/release's spslam unless given; without one, commands are not checked
 set -euo pipefail
-program=${1:+$(realpath "$1")}
+program=${1:+$(realpath -m "$1")}
 cd "$(dirname "$0")/.."
 : "${program:=$PWD/build/release/bin/spslam}"
 mapfile -t pages < <(find . \( -name .git -o -name build -o -name out -o -name node_modules \) -prune -o -name '*.md' -print | sort)

@@ -10,7 +10,8 @@ order=$(sed -n '/^foreach(folder/,/)/p' CMakeLists.txt | tr -d '()' | tr '\n' ' 
 [ -n "$order" ] || { echo "no foreach(folder ...) in CMakeLists.txt" >&2; exit 1; }
 
 # include/spslam/*.h are for users: they stand on the floor of `system`.
-find src/spslam include -name '*.h' -o -name '*.cpp' | sort | xargs awk -v order="$order" '
+mapfile -t folders < <(ls -d src/spslam include 2>/dev/null)
+find "${folders[@]}" -name '*.h' -o -name '*.cpp' | sort | xargs awk -v order="$order" '
   BEGIN { count = split(order, names, " "); for (i = 1; i <= count; ++i) rank[names[i]] = i }
   FNR == 1 {
     parts = split(FILENAME, path, "/")
