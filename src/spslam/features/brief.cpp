@@ -61,22 +61,40 @@ std::array<Rotation, kAngleBins> rotate_pattern() {
   return rotations;
 }
 
-// The kernel 5 8 12 14 12 8 5 (sum 64) across seven rows.
-SPSLAM_SIMD void smooth_down(const std::array<const Byte*, 7>& rows, int count, Byte* out) {
-  const Byte *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3], *e = rows[4], *f = rows[5], *g = rows[6];
-  for (int x = 0; x < count; ++x) {
-    const auto sum = static_cast<std::uint16_t>(5 * (a[x] + g[x]) + 8 * (b[x] + f[x]) + 12 * (c[x] + e[x]) +
-                                                14 * d[x] + 32);
-    out[x] = static_cast<Byte>(sum >> 6);
+// Rounded up, as the processors' own instruction does.
+[[gnu::always_inline]] constexpr Byte mean(Byte a, Byte b) {
+  return static_cast<Byte>((a + b + 1) >> 1);
+}
+[[gnu::always_inline]] constexpr Byte binomial(Byte a, Byte b, Byte c) {
+  return mean(mean(a, c), b);
+}
+
+// (1 2 1) and then (1 0 2 0 1): the kernel 1 2 3 4 3 2 1 of seven samples.
+template <int block>
+[[gnu::always_inline]] inline void smooth_block(const Byte* a, const Byte* b, const Byte* c, const Byte* d,
+                                                const Byte* e, const Byte* f, const Byte* g,
+                                                Byte* __restrict out) {
+  for (int x = 0; x < block; ++x) {
+    out[x] = binomial(binomial(a[x], b[x], c[x]), binomial(c[x], d[x], e[x]), binomial(e[x], f[x], g[x]));
   }
 }
 
-// The same along a row that has three more pixels on each side.
-SPSLAM_SIMD void smooth_along(const Byte* in, int count, Byte* out) {
-  for (int x = 0; x < count; ++x) {
-    const auto sum = static_cast<std::uint16_t>(5 * (in[x - 3] + in[x + 3]) + 8 * (in[x - 2] + in[x + 2]) +
-                                                12 * (in[x - 1] + in[x + 1]) + 14 * in[x] + 32);
-    out[x] = static_cast<Byte>(sum >> 6);
+// Whole blocks, the last one moved back over the one before it (see fast.cpp).
+template <int block>
+[[gnu::always_inline]] inline void smooth_blocks(const Byte* const* rows, int count, Byte* out) {
+  const Byte *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3], *e = rows[4], *f = rows[5], *g = rows[6];
+  for (int begin = 0; begin < count; begin += block) {
+    const int at = begin + block <= count ? begin : count - block;
+    smooth_block<block>(a + at, b + at, c + at, d + at, e + at, f + at, g + at, out + at);
+  }
+}
+
+// out[x] from rows[0][x] .. rows[6][x]; out must not overlap them.
+SPSLAM_SIMD void smooth_rows(const Byte* const* rows, int count, Byte* out) {
+  if (count >= 32) {
+    smooth_blocks<32>(rows, count, out);
+  } else {
+    smooth_blocks<1>(rows, count, out);
   }
 }
 
@@ -92,12 +110,13 @@ void smooth(const cv::Mat& grey, cv::Mat& smoothed) {
   const int width = grey.cols;
   std::vector<Byte> line(width + 6);
   for (int y = 0; y < grey.rows; ++y) {
-    std::array<const Byte*, 7> rows;
+    const Byte* rows[7];
     for (int i = 0; i < 7; ++i) rows[i] = grey.ptr<Byte>(std::clamp(y + i - 3, 0, grey.rows - 1));
-    smooth_down(rows, width, line.data() + 3);
+    smooth_rows(rows, width, line.data() + 3);
     std::memset(line.data(), line[3], 3);
     std::memset(line.data() + width + 3, line[width + 2], 3);
-    smooth_along(line.data() + 3, width, smoothed.ptr<Byte>(y));
+    for (int i = 0; i < 7; ++i) rows[i] = line.data() + i;
+    smooth_rows(rows, width, smoothed.ptr<Byte>(y));
   }
 }
 
@@ -111,7 +130,7 @@ Descriptor describe_patch(const Patch& smoothed, float angle) {
     std::uint64_t bits = 0;
     for (int i = 0; i < 64; ++i) {
       const Offsets at = rotation[64 * word + i];
-      bits |= static_cast<std::uint64_t>(pixels[at.a] < pixels[at.b]) << i;
+      bits = bits + bits + (pixels[at.a] < pixels[at.b] ? 1U : 0U);
     }
     descriptor[word] = bits;
   }

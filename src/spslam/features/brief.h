@@ -23,8 +23,8 @@ struct BriefPair {
 // The pattern at angle 0.
 const std::array<BriefPair, 256>& brief_pattern();
 
-// Smooths a CV_8UC1 level for describing: a 7 x 7 Gaussian of standard deviation 2 px in integers, edges
-// repeated.
+// Smooths a CV_8UC1 level for describing: the kernel (1 2 3 4 3 2 1) / 16 along x and y (standard
+// deviation 1.6 px), edges repeated; in bytes, rounding up.
 void smooth(const cv::Mat& grey, cv::Mat& smoothed);
 
 // The descriptor of a patch of the smoothed level, turned by `angle` in rad.

@@ -9,6 +9,8 @@
 namespace spslam {
 namespace {
 
+constexpr int kSharesKept = 4;
+
 // Indices of the corners by falling score, in raster order where equal (a counting sort: scores are bytes).
 std::vector<int> by_score(std::span<const Corner> corners) {
   std::array<int, 257> begin{};
@@ -45,55 +47,78 @@ std::vector<Corner> thin(std::span<const Corner> corners, cv::Size size, int spa
 
 struct Cells {
   int columns, rows;
-  float per_x, per_y;
+  std::vector<std::int16_t> column_of_x, row_of_y;
 
   Cells(cv::Size size, int side)
       : columns(std::max(1, (size.width + side / 2) / side)),
-        rows(std::max(1, (size.height + side / 2) / side)),
-        per_x(static_cast<float>(columns) / static_cast<float>(size.width)),
-        per_y(static_cast<float>(rows) / static_cast<float>(size.height)) {}
-  int count() const { return columns * rows; }
-  int of(const Corner& corner) const {
-    return static_cast<int>(static_cast<float>(corner.y) * per_y) * columns +
-           static_cast<int>(static_cast<float>(corner.x) * per_x);
+        rows(std::max(1, (size.height + side / 2) / side)) {
+    for (int x = 0; x < size.width; ++x)
+      column_of_x.push_back(static_cast<std::int16_t>(x * columns / size.width));
+    for (int y = 0; y < size.height; ++y)
+      row_of_y.push_back(static_cast<std::int16_t>(y * rows / size.height));
   }
+  int count() const { return columns * rows; }
+  int of(const Corner& corner) const { return row_of_y[corner.y] * columns + column_of_x[corner.x]; }
 };
+
+// Drops from each cell what lies behind its `keep` best corners (all of equal score stay), to spare the work
+// on them.
+std::vector<Corner> best_of_cells(std::span<const Corner> corners, const Cells& cells, int keep) {
+  std::vector<std::array<int, 256>> histogram(cells.count(), std::array<int, 256>{});
+  for (const Corner& corner : corners) ++histogram[cells.of(corner)][corner.score];
+  std::vector<int> lowest(cells.count(), 0);
+  for (int i = 0; i < cells.count(); ++i) {
+    int found = 0, score = 255;
+    while (score > 0 && found + histogram[i][score] < keep) found += histogram[i][score--];
+    lowest[i] = score;
+  }
+  std::vector<Corner> best;
+  best.reserve(corners.size());
+  for (const Corner& corner : corners) {
+    if (corner.score >= lowest[cells.of(corner)]) best.push_back(corner);
+  }
+  return best;
+}
+
+// The round each corner (by falling score) is taken in: the n-th of a cell in round n; kWeak for those that
+// do not pass the threshold of their cell, which is below the start only as far as the cell's even share
+// needs it.
+constexpr int kWeak = -1;
+std::vector<int> rounds(std::span<const Corner> corners, const Cells& cells, int share, int start_threshold) {
+  std::vector<int> in_cell(cells.count(), 0), round(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const int rank = in_cell[cells.of(corners[i])]++;
+    round[i] = corners[i].score <= start_threshold && rank >= share ? kWeak : rank;
+  }
+  return round;
+}
+
+// A stable counting sort by round, the weak ones at the end.
+RankedCorners sort_by_round(std::span<const Corner> corners, std::span<const int> round) {
+  const int last = round.empty() ? 0 : *std::max_element(round.begin(), round.end());
+  std::vector<int> next(last + 2, 0);
+  for (const int r : round) next[r + 1] += r == kWeak ? 0 : 1;
+  for (int r = 1; r <= last + 1; ++r) next[r] += next[r - 1];
+  RankedCorners result;
+  result.strong = next[last + 1];
+  result.corners.resize(corners.size());
+  int next_weak = result.strong;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    result.corners[round[i] == kWeak ? next_weak++ : next[round[i]]++] = corners[i];
+  }
+  return result;
+}
 
 }  // namespace
 
 RankedCorners rank_corners(std::span<const Corner> corners, cv::Size size, int wanted,
                            const OrbOptions& options) {
-  const std::vector<Corner> candidates = thin(corners, size, options.spacing);
   const Cells cells(size, options.cell_size);
   const int share = (wanted + cells.count() - 1) / cells.count();
-  // The n-th best of a cell belongs to round n. A cell's threshold falls below the start only for its even
-  // share.
-  std::vector<int> in_cell(cells.count(), 0), round(candidates.size());
-  std::vector<int> size_of_round;
-  int weak_count = 0;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    int& rank = in_cell[cells.of(candidates[i])];
-    const bool weak = candidates[i].score <= options.start_threshold && rank >= share;
-    round[i] = weak ? -1 : rank;
-    ++rank;
-    if (weak) {
-      ++weak_count;
-      continue;
-    }
-    if (round[i] >= static_cast<int>(size_of_round.size())) size_of_round.resize(round[i] + 1, 0);
-    ++size_of_round[round[i]];
-  }
-  // A stable counting sort by round, the weak ones at the end.
-  RankedCorners result;
-  result.corners.resize(candidates.size());
-  result.strong = static_cast<int>(candidates.size()) - weak_count;
-  std::vector<int> next(size_of_round.size() + 1, 0);
-  for (std::size_t i = 0; i < size_of_round.size(); ++i) next[i + 1] = next[i] + size_of_round[i];
-  int next_weak = result.strong;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    result.corners[round[i] < 0 ? next_weak++ : next[round[i]]++] = candidates[i];
-  }
-  return result;
+  // Four shares let a quarter of the cells supply the whole level.
+  std::vector<Corner> kept = thin(best_of_cells(corners, cells, kSharesKept * share), size, options.spacing);
+  if (static_cast<int>(kept.size()) < 2 * wanted) kept = thin(corners, size, options.spacing);
+  return sort_by_round(kept, rounds(kept, cells, share, options.start_threshold));
 }
 
 std::vector<int> level_quotas(std::span<const int> available, int count, const OrbOptions& options) {

@@ -14,7 +14,8 @@ namespace {
 
 using Byte = std::uint8_t;
 
-// Inlined by force, and no std::array: within a function of several versions the compiler calls what it would else inline.
+// Inlined by force, and no std::array: within a function of several versions the compiler calls what it would
+// else inline.
 [[gnu::always_inline]] constexpr Byte low(Byte a, Byte b) {
   return a < b ? a : b;
 }
@@ -22,8 +23,8 @@ using Byte = std::uint8_t;
   return a < b ? b : a;
 }
 
-// The largest minimum (inner = low, outer = high) or the smallest maximum (the reverse) over the 16 arcs of nine. The arcs
-// that begin at k and at k + 1 share eight pixels, so eight windows of eight suffice.
+// The largest minimum (inner = low, outer = high) or the smallest maximum (the reverse) over the 16 arcs of
+// nine. The arcs that begin at k and at k + 1 share eight pixels, so eight windows of eight suffice.
 template <Byte (*inner)(Byte, Byte), Byte (*outer)(Byte, Byte), std::size_t... K>
 [[gnu::always_inline]] inline Byte best_arc(const Byte (&d)[16], std::index_sequence<K...>) {
   const Byte two[8] = {inner(d[2 * K + 1], d[(2 * K + 2) % 16])...};
@@ -34,32 +35,74 @@ template <Byte (*inner)(Byte, Byte), Byte (*outer)(Byte, Byte), std::size_t... K
                outer(outer(nine[4], nine[5]), outer(nine[6], nine[7])));
 }
 
-SPSLAM_SIMD void score_row(const Byte* centre, std::ptrdiff_t stride, int count, Byte minimum, Byte* scores) {
-  const Byte *m3 = centre - 3 * stride, *m2 = centre - 2 * stride, *m1 = centre - stride;
-  const Byte *p1 = centre + stride, *p2 = centre + 2 * stride, *p3 = centre + 3 * stride;
-  for (int x = 0; x < count; ++x) {
-    const Byte ring[16] = {p3[x],         p3[x + 1], p2[x + 2], p1[x + 3], centre[x + 3], m1[x + 3],
-                       m2[x + 2],     m3[x + 1], m3[x],     m3[x - 1], m2[x - 2],     m1[x - 3],
-                       centre[x - 3], p1[x - 3], p2[x - 2], p3[x - 1]};
+struct Row {
+  const Byte* in;
+  std::ptrdiff_t stride;
+  int count;
+  Byte* out;
+};
+
+template <int block>
+[[gnu::always_inline]] inline void score_block(const Byte* in, std::ptrdiff_t one, Byte minimum,
+                                               Byte* __restrict out) {
+  const std::ptrdiff_t two = 2 * one, three = 3 * one;
+  for (int x = 0; x < block; ++x) {
+    const Byte* p = in + x;
+    const Byte ring[16] = {p[three],   p[three + 1], p[two + 2], p[one + 3],    p[3],        p[3 - one],
+                           p[2 - two], p[1 - three], p[-three],  p[-three - 1], p[-two - 2], p[-one - 3],
+                           p[-3],      p[one - 3],   p[two - 2], p[three - 1]};
     const Byte bright = best_arc<low, high>(ring, std::make_index_sequence<8>{});
     const Byte dark = best_arc<high, low>(ring, std::make_index_sequence<8>{});
-    const Byte c = centre[x];
-    const Byte above = static_cast<Byte>(high(bright, c) - c);
-    const Byte below = static_cast<Byte>(c - low(dark, c));
+    const Byte above = static_cast<Byte>(high(bright, p[0]) - p[0]);
+    const Byte below = static_cast<Byte>(p[0] - low(dark, p[0]));
     const Byte score = high(above, below);
-    scores[x] = score > minimum ? score : Byte{0};
+    out[x] = score > minimum ? score : Byte{0};
   }
 }
 
 // Keeps what is above the neighbours before it in raster order and not below those after it.
-SPSLAM_SIMD void keep_maxima(const Byte* s, std::ptrdiff_t stride, int count, Byte* kept) {
+template <int block>
+[[gnu::always_inline]] inline void maxima_block(const Byte* s, std::ptrdiff_t stride, Byte* __restrict out) {
   const Byte *up = s - stride, *down = s + stride;
-  for (int x = 0; x < count; ++x) {
+  for (int x = 0; x < block; ++x) {
     const Byte before = high(high(up[x - 1], up[x]), high(up[x + 1], s[x - 1]));
     const Byte after = high(high(down[x - 1], down[x]), high(down[x + 1], s[x + 1]));
-    const Byte c = s[x];
-    const Byte first = c > before ? c : Byte{0};
-    kept[x] = c >= after ? first : Byte{0};
+    const Byte kept = s[x] > before ? s[x] : Byte{0};
+    out[x] = s[x] >= after ? kept : Byte{0};
+  }
+}
+
+// Whole blocks only, the last one moved back over the one before it: single pixels at the end of a row would
+// cost more than all the vectors before them.
+template <int block>
+[[gnu::always_inline]] inline void score_blocks(const Row& row, Byte minimum) {
+  for (int begin = 0; begin < row.count; begin += block) {
+    const int first = begin + block <= row.count ? begin : row.count - block;
+    score_block<block>(row.in + first, row.stride, minimum, row.out + first);
+  }
+}
+
+template <int block>
+[[gnu::always_inline]] inline void maxima_blocks(const Row& row) {
+  for (int begin = 0; begin < row.count; begin += block) {
+    const int first = begin + block <= row.count ? begin : row.count - block;
+    maxima_block<block>(row.in + first, row.stride, row.out + first);
+  }
+}
+
+SPSLAM_SIMD void score_row(const Row& row, Byte minimum) {
+  if (row.count >= 32) {
+    score_blocks<32>(row, minimum);
+  } else {
+    score_blocks<1>(row, minimum);
+  }
+}
+
+SPSLAM_SIMD void keep_maxima(const Row& row) {
+  if (row.count >= 32) {
+    maxima_blocks<32>(row);
+  } else {
+    maxima_blocks<1>(row);
   }
 }
 
@@ -76,8 +119,8 @@ void fast_scores(const cv::Mat& grey, int minimum, cv::Mat& scores) {
     }
     std::memset(row, 0, 3);
     std::memset(row + width - 3, 0, 3);
-    score_row(grey.ptr<Byte>(y) + 3, static_cast<std::ptrdiff_t>(grey.step), width - 6,
-              static_cast<Byte>(minimum), row + 3);
+    const auto stride = static_cast<std::ptrdiff_t>(grey.step);
+    score_row({grey.ptr<Byte>(y) + 3, stride, width - 6, row + 3}, static_cast<Byte>(minimum));
   }
 }
 
@@ -86,20 +129,25 @@ void collect_corners(const cv::Mat& scores, int border, std::vector<Corner>& cor
   const int margin = std::max(border, 1);
   const int count = scores.cols - 2 * margin;
   if (count < 1) return;
+  const auto stride = static_cast<std::ptrdiff_t>(scores.step);
   std::vector<Byte> kept((count + 7) / 8 * 8, Byte{0});
+  std::size_t found = 0;
   for (int y = margin; y < scores.rows - margin; ++y) {
-    keep_maxima(scores.ptr<Byte>(y) + margin, static_cast<std::ptrdiff_t>(scores.step), count, kept.data());
+    keep_maxima({scores.ptr<Byte>(y) + margin, stride, count, kept.data()});
+    // No two neighbours are both kept, so a row has no more than half of its pixels.
+    if (corners.size() < found + count) corners.resize(2 * found + count);
     for (int x = 0; x < count; x += 8) {
       std::uint64_t eight = 0;
       std::memcpy(&eight, &kept[x], sizeof eight);
       while (eight != 0) {
-        const int byte = std::countr_zero(eight) / 8;
-        const auto at = static_cast<std::int16_t>(margin + x + byte);
-        corners.push_back({at, static_cast<std::int16_t>(y), kept[x + byte]});
-        eight &= ~(std::uint64_t{0xFF} << (8 * byte));
+        const int bit = std::countr_zero(eight) & ~7;
+        corners[found++] = {static_cast<std::int16_t>(margin + x + bit / 8), static_cast<std::int16_t>(y),
+                            static_cast<Byte>(eight >> bit)};
+        eight &= ~(std::uint64_t{0xFF} << bit);
       }
     }
   }
+  corners.resize(found);
 }
 
 cv::Point2f refine_corner(const cv::Mat& scores, const Corner& corner) {
