@@ -64,7 +64,7 @@ GreyImage read_grey_raw(const std::filesystem::path& path) {
 GreyImage read_grey(const std::filesystem::path& path, int bit_depth) {
   GreyImage image = read_grey_raw(path);
   if (image.pixels.depth() == CV_16U)
-    image.pixels.convertTo(image.pixels, CV_8U, std::ldexp(1.0, 8 - std::clamp(bit_depth, 8, 16)));
+    image.pixels.convertTo(image.pixels, CV_8U, 255 / (std::ldexp(1.0, std::clamp(bit_depth, 8, 16)) - 1));
   return image;
 }
 

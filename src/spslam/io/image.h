@@ -20,8 +20,8 @@ struct GreyImage {
 // with grey.
 GreyImage read_grey_raw(const std::filesystem::path& path);
 
-// As above, 16 bit scaled to 8 by 2^(8 - bit_depth) with saturation; bit_depth 9 to 16 is the sensor's, the
-// same for a whole sequence.
+// As above, 16 bit scaled to 8 so that the largest value of bit_depth bits is white (larger ones saturate).
+// bit_depth (8 to 16) is the sensor's, the same for a whole sequence.
 GreyImage read_grey(const std::filesystem::path& path, int bit_depth = 16);
 
 // The smallest of 8, 10, 12, 14, 16 bits that holds the image's largest value.
