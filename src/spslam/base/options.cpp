@@ -3,6 +3,7 @@
 
 #include "spslam/base/options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <numeric>
