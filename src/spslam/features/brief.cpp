@@ -7,35 +7,13 @@
 #include <cstring>
 #include <numbers>
 
-#include "spslam/base/random.h"
 #include "spslam/base/simd.h"
+#include "spslam/features/brief_pattern.h"
 
 namespace spslam {
 namespace {
 
 using Byte = std::uint8_t;
-
-constexpr std::uint64_t kSeed = 2024;
-constexpr float kMinimumLength = 4;  // px; nearer points look at the same smoothed pixels
-
-std::array<BriefPair, 256> draw_pattern() {
-  Random random(kSeed);
-  const double sigma = Patch::kSide / 5.0;
-  const auto point = [&] {
-    cv::Point2d p;
-    do p = {sigma * random.normal(), sigma * random.normal()};
-    while (std::hypot(p.x, p.y) > kPatchRadius);
-    return cv::Point2f(p);
-  };
-  std::array<BriefPair, 256> pattern;
-  for (BriefPair& pair : pattern) {
-    cv::Point2f a, b;
-    do a = point(), b = point();
-    while (std::hypot(a.x - b.x, a.y - b.y) < kMinimumLength);
-    pair = {a.x, a.y, b.x, b.y};
-  }
-  return pattern;
-}
 
 struct Offsets {
   std::uint16_t a, b;  // in Patch::pixels
@@ -54,7 +32,7 @@ std::array<Rotation, kAngleBins> rotate_pattern() {
   for (int bin = 0; bin < kAngleBins; ++bin) {
     const double angle = 2 * std::numbers::pi * bin / kAngleBins;
     for (int i = 0; i < 256; ++i) {
-      const BriefPair& pair = brief_pattern()[i];
+      const BriefPair pair = brief_pair(i);
       rotations[bin][i] = {rotated_offset(pair.ax, pair.ay, angle), rotated_offset(pair.bx, pair.by, angle)};
     }
   }
@@ -100,9 +78,9 @@ SPSLAM_SIMD void smooth_rows(const Byte* const* rows, int count, Byte* out) {
 
 }  // namespace
 
-const std::array<BriefPair, 256>& brief_pattern() {
-  static const std::array<BriefPair, 256> pattern = draw_pattern();
-  return pattern;
+BriefPair brief_pair(int bit) {
+  const std::int8_t* p = kBriefTable[bit];
+  return {p[0] / 8.0F, p[1] / 8.0F, p[2] / 8.0F, p[3] / 8.0F};
 }
 
 void smooth(const cv::Mat& grey, cv::Mat& smoothed) {

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rotated BRIEF: 256 comparisons of two smoothed pixels each, the pattern turned to the feature's orientation
 // (Calonder et al., "BRIEF: binary robust independent elementary features", 2010; Rublee et al. 2011). The
-// pattern is our own: pairs of points from an isotropic Gaussian of variance S^2 / 25 for a patch of side S =
-// 31 (Calonder's G II), drawn by a generator with a fixed seed; so any program can make it again, and it is
-// the same for ever (docs/ALGORITHM.md).
+// pattern is our own: pairs drawn from a Gaussian, of which the least correlated are kept;
+// bench/features_pattern.cpp makes it, brief_pattern.h holds it.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -20,8 +19,8 @@ struct BriefPair {
   float ax, ay, bx, by;  // px from the centre, within kPatchRadius; the bit is I(a) < I(b)
 };
 
-// The pattern at angle 0.
-const std::array<BriefPair, 256>& brief_pattern();
+// What bit 0 .. 255 compares at angle 0.
+BriefPair brief_pair(int bit);
 
 // Smooths a CV_8UC1 level for describing: the kernel (1 2 3 4 3 2 1) / 16 along x and y (standard
 // deviation 1.6 px), edges repeated; in bytes, rounding up.

@@ -14,6 +14,8 @@ namespace {
 
 using Byte = std::uint8_t;
 
+constexpr float kFurthest = 0.49F;  // px; less than a half, so that rounding leads back to the corner's pixel
+
 // Inlined by force, and no std::array: within a function of several versions the compiler calls what it would
 // else inline.
 [[gnu::always_inline]] constexpr Byte low(Byte a, Byte b) {
@@ -155,7 +157,7 @@ cv::Point2f refine_corner(const cv::Mat& scores, const Corner& corner) {
     const int curvature = 2 * at - before - after;
     if (curvature <= 0) return 0.0F;
     const float offset = 0.5F * static_cast<float>(after - before) / static_cast<float>(curvature);
-    return std::clamp(offset, -0.5F, 0.5F);
+    return std::clamp(offset, -kFurthest, kFurthest);
   };
   const Byte* row = scores.ptr<Byte>(corner.y) + corner.x;
   const auto stride = static_cast<std::ptrdiff_t>(scores.step);

@@ -27,7 +27,7 @@ void fast_scores(const cv::Mat& grey, int minimum, cv::Mat& scores);
 void collect_corners(const cv::Mat& scores, int border, std::vector<Corner>& corners);
 
 // Offset of the maximum of a corner's scores from the whole pixel: parabolas through it and its neighbours in
-// x and y, each within half a pixel.
+// x and y, each less than half a pixel.
 cv::Point2f refine_corner(const cv::Mat& scores, const Corner& corner);
 
 }  // namespace spslam
