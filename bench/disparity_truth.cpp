@@ -70,7 +70,7 @@ cv::Mat disparity_of(const cv::Mat& depth_cm, const StereoRig& rig, const Pose& 
   return disparity;
 }
 
-// Largest distance of a square's values from its least-squares plane.
+// Largest distance of a square's values from its least-squares plane; NaN with water in it.
 float departure_from_plane(const cv::Mat& patch, int radius) {
   double sum = 0, along_x = 0, along_y = 0, weight = 0;
   for (int v = -radius; v <= radius; ++v) {
@@ -82,8 +82,9 @@ float departure_from_plane(const cv::Mat& patch, int radius) {
   double largest = 0;
   for (int v = -radius; v <= radius; ++v)
     for (int u = -radius; u <= radius; ++u)
-      largest = std::max(largest, std::abs(patch.at<float>(v + radius, u + radius) - sum / patch.total() -
-                                           (along_x * u + along_y * v) / weight));
+      largest = std::max(std::abs(patch.at<float>(v + radius, u + radius) - sum / patch.total() -
+                                  (along_x * u + along_y * v) / weight),
+                         largest);
   return static_cast<float>(largest);
 }
 
@@ -131,23 +132,26 @@ std::vector<BenchFrame> read_frames(const std::string& folder, int every) {
   return frames;
 }
 
-TrueDisparity true_disparity(const cv::Mat& disparity, float x, float y, float measured, int radius,
-                             float edge_range) {
-  const int cx = static_cast<int>(std::lround(x)), cy = static_cast<int>(std::lround(y));
+TrueDisparity true_disparity(const cv::Mat& disparity, float x, float y, float measured,
+                             const EdgeRule& rule) {
+  const cv::Point centre(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)));
+  const auto square = [&](int radius) {
+    return cv::Rect(centre.x - radius, centre.y - radius, 2 * radius + 1, 2 * radius + 1);
+  };
   TrueDisparity truth;
-  const cv::Rect around(cx - radius, cy - radius, 2 * radius + 1, 2 * radius + 1);
+  const cv::Rect around = square(rule.plane_radius);
   if ((around & cv::Rect({}, disparity.size())) != around) return truth;
-  const cv::Mat patch = disparity(around);
-  if (!cv::checkRange(patch)) return truth;  // water
+  if (!cv::checkRange(disparity(square(rule.edge_radius)))) return truth;  // water
   truth.known = true;
-  truth.edge = departure_from_plane(patch, radius) > edge_range;
+  truth.edge = !(departure_from_plane(disparity(around), rule.plane_radius) <= rule.edge_range);
   if (!truth.edge || std::isnan(measured)) {
     cv::Mat between;
     cv::getRectSubPix(disparity, cv::Size(1, 1), cv::Point2f(x, y), between);
     truth.value = between.at<float>(0);
     return truth;
   }
-  truth.value = patch.at<float>(radius, radius);
+  truth.value = disparity.at<float>(centre);
+  const cv::Mat patch = disparity(square(rule.edge_radius));
   for (auto d = patch.begin<float>(); d != patch.end<float>(); ++d)
     if (std::abs(*d - measured) < std::abs(truth.value - measured)) truth.value = *d;
   return truth;

@@ -30,10 +30,15 @@ struct TrueDisparity {
   float value = 0;     // px
 };
 
-// The truth about a pixel. Where the disparities within `radius` px depart by more than `edge_range` px from
-// a plane, a patch sees more than one surface: then `edge` is set and the value is that of the neighbourhood
-// nearest to `measured` (NaN: that of the pixel itself); elsewhere it is interpolated at the pixel.
-TrueDisparity true_disparity(const cv::Mat& disparity, float x, float y, float measured, int radius,
-                             float edge_range);
+// The truth about a pixel. Where the disparities within `plane_radius` px depart by more than `edge_range` px
+// from a plane, a patch sees more than one surface and locks on the one with the texture (a silhouette, not
+// the sky next to it): then `edge` is set and the value is that within `edge_radius` px which is nearest to
+// `measured` (NaN: that of the pixel itself); elsewhere it is interpolated at the pixel.
+struct EdgeRule {
+  int plane_radius = 12, edge_radius = 7;
+  double edge_range = 0.25;
+};
+TrueDisparity true_disparity(const cv::Mat& disparity, float x, float y, float measured,
+                             const EdgeRule& rule);
 
 }  // namespace spslam::bench

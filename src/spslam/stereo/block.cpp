@@ -12,7 +12,8 @@
 namespace spslam {
 namespace {
 
-constexpr int kRow = 16;  // bytes a block row
+constexpr int kRow = 16;      // bytes a block row
+constexpr int kWideRow = 48;  // bytes a row of a search window: 15 + 16 and what a full row read takes
 constexpr int kMaxStripRows = 2 * (kMaxBlockRadius + kMaxSearchRadiusRows) + 1;
 
 struct Sums {
@@ -39,27 +40,30 @@ SPSLAM_SIMD void apply_gain(std::uint8_t* pixels, int width, int gain, int offse
   }
 }
 
-// A column of the search window: rows of `width` bytes, padded with 0 to 16.
-inline void cut_strip(const std::uint8_t* from, std::size_t step, int width, int rows, std::uint8_t* strip) {
-  for (int r = 0; r < rows; ++r, from += step, strip += kRow) {
-    for (int c = 0; c < kRow; ++c) strip[c] = 0;
-    std::memcpy(strip, from, static_cast<std::size_t>(width));
-  }
+// Rows of an image region into rows of a fixed length, so that whole rows can be read without looking at
+// borders.
+void copy_rows(const std::uint8_t* from, std::size_t step, int width, int rows, std::uint8_t* to,
+               int to_step) {
+  for (int r = 0; r < rows; ++r, from += step, to += to_step)
+    std::memcpy(to, from, static_cast<std::size_t>(width));
 }
 
-SPSLAM_SIMD void search_columns(const Block& block, const std::uint8_t* corner, std::size_t step,
-                                CostWindow& window) {
-  const int width = 2 * block.radius + 1, columns = 2 * window.radius_u + 1, rows = 2 * window.radius_v + 1;
-  const int bytes = kRow * width;
+// region: the search window's pixels, kWideRow bytes a row. Column by column, because then a block and its
+// place are each one run of bytes, padding included, and SAD is one loop that compilers know (psadbw).
+SPSLAM_SIMD void search_columns(const std::uint8_t* block, const std::uint8_t* region, int width, int columns,
+                                int rows, int* cost) {
+  alignas(32) std::uint8_t mask[kRow];
+  for (int c = 0; c < kRow; ++c) mask[c] = c < width ? 0xFF : 0;
   alignas(32) std::uint8_t strip[kRow * kMaxStripRows];
   for (int u = 0; u < columns; ++u) {
-    cut_strip(corner + u, step, width, width + rows - 1, strip);
+    for (int r = 0; r < width + rows - 1; ++r)
+      for (int c = 0; c < kRow; ++c) strip[kRow * r + c] = region[kWideRow * r + u + c] & mask[c];
     for (int v = 0; v < rows; ++v) {
-      const std::uint8_t* a = block.pixels.data();
-      const std::uint8_t* b = strip + kRow * v;
+      const std::uint8_t* place = strip + kRow * v;
       int sum = 0;
-      for (int k = 0; k < bytes; ++k) sum += std::abs(static_cast<int>(a[k]) - static_cast<int>(b[k]));
-      window.cost[v * columns + u] = sum;
+      for (int k = 0; k < kRow * width; ++k)
+        sum += std::abs(static_cast<int>(block[k]) - static_cast<int>(place[k]));
+      cost[v * columns + u] = sum;
     }
   }
 }
@@ -86,7 +90,7 @@ Block cut_block(const cv::Mat& image, const cv::Point& p, int radius) {
   Block block;
   block.radius = radius;
   const int width = 2 * radius + 1;
-  cut_strip(image.ptr(p.y - radius) + p.x - radius, image.step[0], width, width, block.pixels.data());
+  copy_rows(image.ptr(p.y - radius) + p.x - radius, image.step[0], width, width, block.pixels.data(), kRow);
   return block;
 }
 
@@ -109,8 +113,11 @@ CostWindow search_block(const Block& block, const cv::Mat& image, const cv::Poin
   CostWindow window;
   window.radius_u = radius_u;
   window.radius_v = radius_v;
+  const int width = 2 * block.radius + 1, columns = 2 * radius_u + 1, rows = 2 * radius_v + 1;
+  std::array<std::uint8_t, kWideRow * kMaxStripRows> region{};
   const std::uint8_t* corner = image.ptr(p.y - block.radius - radius_v) + p.x - block.radius - radius_u;
-  search_columns(block, corner, image.step[0], window);
+  copy_rows(corner, image.step[0], width + columns - 1, width + rows - 1, region.data(), kWideRow);
+  search_columns(block.pixels.data(), region.data(), width, columns, rows, window.cost.data());
   return window;
 }
 

@@ -24,11 +24,17 @@ struct BlockMatch {
   double uncertainty = 0;  // px of the level: residual over curvature
 };
 
-// A pixel centre of the full-size image on the level, to the nearest pixel. The level shows the whole image,
-// so that pixel borders, not centres, scale.
-cv::Point to_level(const Keypoint& k, double pixel) {
-  return {static_cast<int>(std::lround((k.x + 0.5) / pixel - 0.5)),
-          static_cast<int>(std::lround((k.y + 0.5) / pixel - 0.5))};
+// Full-size pixels in one of the level. The level shows the whole image, so that pixel borders, not centres,
+// scale; its size is rounded, so that the two directions differ a little.
+cv::Point2d pixel_size(std::span<const cv::Mat> levels, int level) {
+  return {static_cast<double>(levels[0].cols) / levels[level].cols,
+          static_cast<double>(levels[0].rows) / levels[level].rows};
+}
+
+// The level's pixel nearest to a keypoint.
+cv::Point to_level(const Keypoint& k, const cv::Point2d& pixel) {
+  return {static_cast<int>(std::lround((k.x + 0.5) / pixel.x - 0.5)),
+          static_cast<int>(std::lround((k.y + 0.5) / pixel.y - 0.5))};
 }
 
 struct BlockMatcher {
@@ -48,7 +54,7 @@ struct BlockMatcher {
 
   BlockMatch match(const Keypoint& l, const Keypoint& r) const {
     const cv::Mat &left = left_levels[l.octave], &right = right_levels[l.octave];
-    const double pixel = static_cast<double>(left_levels[0].cols) / left.cols;
+    const cv::Point2d pixel = pixel_size(left_levels, l.octave);
     const cv::Point at = to_level(l, pixel), start = to_level(r, pixel);
     BlockMatch result;
     if (!block_inside(left, at, options.block_radius, 0, 0)) return result;
@@ -75,16 +81,16 @@ struct BlockMatcher {
   }
 
   StereoMeasurement measure(const BlockMatch& match, const Keypoint& l) const {
-    const double pixel = static_cast<double>(left_levels[0].cols) / left_levels[l.octave].cols;
+    const cv::Point2d pixel = pixel_size(left_levels, l.octave);
     StereoMeasurement m;
     m.status = match.status;
-    m.disparity = static_cast<float>(-match.du * pixel);
-    m.row_offset = static_cast<float>(match.dv * pixel);
+    m.disparity = static_cast<float>(-match.du * pixel.x);
+    m.row_offset = static_cast<float>(match.dv * pixel.y);
     m.sigma = static_cast<float>(
-        pixel * std::hypot(options.block_noise.floor, options.block_noise.slope * match.uncertainty));
-    const bool inside = m.disparity >= options.min_disparity * pixel &&
+        pixel.x * std::hypot(options.block_noise.floor, options.block_noise.slope * match.uncertainty));
+    const bool inside = m.disparity >= options.min_disparity * pixel.x &&
                         m.disparity <= options.max_disparity_share * left_levels[0].cols &&
-                        std::abs(m.row_offset) <= options.row_tolerance * pixel;
+                        std::abs(m.row_offset) <= options.row_tolerance * pixel.y;
     if (m.ok() && !inside) m.status = StereoStatus::kOutOfRange;
     return m;
   }

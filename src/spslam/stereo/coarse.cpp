@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
+
+#include "spslam/base/simd.h"
 
 namespace spslam {
 namespace {
@@ -17,8 +20,14 @@ constexpr float kSamePlace = 2.0F;  // px of the level: two keypoints nearer tha
 
 // Right keypoints sorted by row, so that a band of rows is one contiguous run.
 struct RowIndex {
+  struct Entry {
+    float x, y;
+    int octave;
+    int keypoint;
+  };
   std::vector<int> first;  // first[r] .. first[r + 1]: entries of row r
-  std::vector<int> keypoint;
+  std::vector<Entry> entries;
+  std::vector<Descriptor> descriptors;  // of the entries
 
   RowIndex(const Features& features, int height) : first(static_cast<std::size_t>(height) + 1, 0) {
     const auto row_of = [&](const Keypoint& k) {
@@ -26,24 +35,35 @@ struct RowIndex {
     };
     for (const Keypoint& k : features.keypoints) ++first[row_of(k) + 1];
     for (int r = 0; r < height; ++r) first[r + 1] += first[r];
-    keypoint.resize(features.keypoints.size());
+    entries.resize(features.keypoints.size());
+    descriptors.resize(features.keypoints.size());
     std::vector<int> next(first.begin(), first.end() - 1);
-    for (std::size_t i = 0; i < features.keypoints.size(); ++i)
-      keypoint[next[row_of(features.keypoints[i])]++] = static_cast<int>(i);
+    for (std::size_t i = 0; i < features.keypoints.size(); ++i) {
+      const Keypoint& k = features.keypoints[i];
+      const int place = next[row_of(k)]++;
+      entries[place] = {k.x, k.y, k.octave, static_cast<int>(i)};
+      descriptors[place] = features.descriptors[i];
+    }
   }
 
-  std::span<const int> rows(float low, float high) const {
+  // Begin and end of the entries in the rows from low to high.
+  std::pair<int, int> rows(float low, float high) const {
     const int last = static_cast<int>(first.size()) - 2;
     const int from = std::clamp(static_cast<int>(std::lround(low)), 0, last);
     const int to = std::clamp(static_cast<int>(std::lround(high)), from, last);
-    return std::span(keypoint).subspan(first[from], first[to + 1] - first[from]);
+    return {first[from], first[to + 1]};
   }
 };
 
 struct Candidate {
-  int right;
-  int distance;
+  int entry;  // of the row index
+  int distance = 0;
 };
+
+SPSLAM_SIMD void measure_distances(const Descriptor& left, const Descriptor* right, Candidate* candidates,
+                                   std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) candidates[k].distance = hamming(left, right[candidates[k].entry]);
+}
 
 struct RowMatcher {
   const Features& left;
@@ -53,33 +73,38 @@ struct RowMatcher {
   float max_disparity;
   const StereoOptions& options;
 
-  // All right keypoints that may be left keypoint i by place and level.
+  // All right keypoints that may be left keypoint i by place and level, with their distances.
   void collect(std::size_t i, std::vector<Candidate>& candidates) const {
     const Keypoint& l = left.keypoints[i];
-    const float pixel = static_cast<float>(pixel_sizes[l.octave]);
+    const auto pixel = static_cast<float>(pixel_sizes[l.octave]);
     const float band = static_cast<float>(options.row_tolerance) * pixel;
     const float lowest = static_cast<float>(options.min_disparity) * pixel;  // a coarser pixel is noisier
-    candidates.clear();
-    for (const int r : index.rows(l.y - band, l.y + band)) {
-      const Keypoint& k = right.keypoints[r];
-      const float disparity = l.x - k.x;
-      if (disparity < lowest || disparity > max_disparity || std::abs(k.y - l.y) > band) continue;
-      if (std::abs(k.octave - l.octave) > 1) continue;
-      candidates.push_back({r, hamming(left.descriptors[i], right.descriptors[r])});
+    const auto [begin, end] = index.rows(l.y - band, l.y + band);
+    candidates.resize(static_cast<std::size_t>(end - begin));
+    std::size_t count = 0;
+    for (int e = begin; e < end; ++e) {  // no branches: which keypoints fit is hard to predict
+      const RowIndex::Entry& r = index.entries[e];
+      const float disparity = l.x - r.x;
+      candidates[count].entry = e;
+      count += (disparity >= lowest) & (disparity <= max_disparity) & (std::abs(r.y - l.y) <= band) &
+               (std::abs(r.octave - l.octave) <= 1);
     }
+    candidates.resize(count);
+    measure_distances(left.descriptors[i], index.descriptors.data(), candidates.data(), candidates.size());
   }
 
   CoarseMatch choose(std::size_t i, const std::vector<Candidate>& candidates) const {
-    CoarseMatch match;
+    Candidate best{-1, 256};
     for (const Candidate& c : candidates)
-      if (c.distance < match.distance) match = {c.right, c.distance, StereoStatus::kOk};
-    if (match.right < 0 || match.distance > options.max_distance) return {};
+      if (c.distance < best.distance) best = c;
+    if (best.entry < 0 || best.distance > options.max_distance) return {};
+    const RowIndex::Entry& place = index.entries[best.entry];
+    CoarseMatch match{place.keypoint, best.distance, StereoStatus::kOk};
     const float apart = kSamePlace * static_cast<float>(pixel_sizes[left.keypoints[i].octave]);
-    const Keypoint& best = right.keypoints[match.right];
     for (const Candidate& c : candidates) {
-      const Keypoint& other = right.keypoints[c.right];
-      const bool elsewhere = std::abs(other.x - best.x) > apart || std::abs(other.y - best.y) > apart;
-      if (elsewhere && match.distance > options.max_distance_ratio * c.distance)
+      if (best.distance <= options.max_distance_ratio * c.distance) continue;
+      const RowIndex::Entry& other = index.entries[c.entry];
+      if (std::abs(other.x - place.x) > apart || std::abs(other.y - place.y) > apart)
         match.status = StereoStatus::kAmbiguous;
     }
     return match;

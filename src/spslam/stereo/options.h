@@ -21,15 +21,16 @@ inline std::span<const char* const> option_names(Interpolation) {
   return kNames;
 }
 
-// sigma^2 = ratio^2 (floor^2 + (slope * noise)^2): ratio is the level's pixel size, `noise` the match's own
-// prediction (residual over gradient or curvature). Constants fitted by bench/disparity.cpp to true errors.
+// sigma^2 = floor^2 + (slope * predicted)^2, where `predicted` is what the match itself lets expect (its
+// residual over its texture). Constants fitted by bench/disparity.cpp, so that error over sigma has a spread
+// of about 1.
 struct DisparityNoise {
   double floor = 0.1;
   double slope = 1.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit(self.floor, {"floor", "px", "deviation of the best match, in pixels of its level", 0.001, 10});
+    visit(self.floor, {"floor", "px", "deviation of the best match", 0.001, 10});
     visit(self.slope, {"slope", "", "weight of the deviation predicted from residual and texture", 0, 100});
   }
 };
@@ -42,8 +43,9 @@ struct StereoOptions {
   int max_distance = 80;
   double max_distance_ratio = 0.9;
   bool left_right_check = true;
-  // fine: block matching
-  bool block_matching = true;
+  // fine: block matching; alignment needs no better start than the keypoints (measured), so it is for doing
+  // without
+  bool block_matching = false;
   bool search_2d = true;
   int block_radius = 5;
   int search_radius = 4;
@@ -54,15 +56,15 @@ struct StereoOptions {
   // gradient alignment
   bool alignment = true;
   bool align_unmatched = true;
-  int align_first_level = 1;
+  int align_first_level = 0;
+  int align_unmatched_level = 1;
   double align_max_move = 3.0;
   double align_max_return = 0.3;
   double align_max_row_offset = 2.0;
-  double align_return_weight = 0.5;
-  AlignmentOptions align;
-  DisparityNoise coarse_noise{1.0, 0.0};
-  DisparityNoise block_noise{0.1, 1.0};
-  DisparityNoise align_noise{0.02, 1.0};
+  AlignmentOptions align{.patch_radius = 7, .convergence = 0.02};
+  double coarse_sigma = 0.6;
+  DisparityNoise block_noise{0.06, 0.09};
+  DisparityNoise align_noise{0.03, 1.8};
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -102,18 +104,24 @@ struct StereoOptions {
     visit(self.align_first_level,
           {"align_first_level", "", "level (each half the size) on which a matched point's alignment starts",
            0, 5});
+    visit(self.align_unmatched_level,
+          {"align_unmatched_level", "", "the same for a point that starts from its neighbours", 0, 5});
     visit(self.align_max_move, {"align_max_move", "px", "farthest that alignment may move a match", 0.1, 20});
     visit(self.align_max_return,
           {"align_max_return", "px", "farthest from the left point that the way back may end", 0.01, 5});
     visit(self.align_max_row_offset,
           {"align_max_row_offset", "px", "largest row offset of an aligned point", 0.1, 10});
-    visit(self.align_return_weight,
-          {"align_return_weight", "", "weight of the return error in the predicted deviation", 0, 10});
     visit.group("align", self.align);
-    visit.group("coarse_noise", self.coarse_noise);
+    visit(self.coarse_sigma,
+          {"coarse_sigma", "px", "deviation of a disparity taken from the keypoints alone", 0.01, 10});
     visit.group("block_noise", self.block_noise);
     visit.group("align_noise", self.align_noise);
   }
 };
+
+// The paper as written: SAD over a square window, quadric surface, nothing else.
+StereoOptions paper_stereo_options();
+// The feature SLAM that the paper starts from: SAD along the row, one-dimensional parabola.
+StereoOptions baseline_stereo_options();
 
 }  // namespace spslam

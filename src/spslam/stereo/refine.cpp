@@ -26,7 +26,7 @@ struct Aligner {
     m.status = StereoStatus::kNotAligned;
     const Eigen::Vector2f point(k.x, k.y), guess(k.x - start.disparity, k.y + start.row_offset);
     const Eigen::Matrix2f no_warp = Eigen::Matrix2f::Identity();
-    const int first = known ? options.align_first_level : -1;
+    const int first = known ? options.align_first_level : options.align_unmatched_level;
     const Alignment there = align_patch(left, point, right, guess, no_warp, options.align, first);
     if (!there.ok()) return m;
     const Alignment back = align_patch(right, there.position, left, point, no_warp, options.align, 0);
@@ -36,7 +36,7 @@ struct Aligner {
     const Eigen::Vector2f shift = there.position - point - 0.5F * (back.position - point);
     m.disparity = -shift.x();
     m.row_offset = shift.y();
-    m.sigma = sigma(there, back, (back.position - point).norm());
+    m.sigma = sigma(there, back);
     const bool inside = m.disparity >= options.min_disparity &&
                         m.disparity <= options.max_disparity_share * left.level(0).cols &&
                         std::abs(m.row_offset) <= options.align_max_row_offset;
@@ -44,9 +44,8 @@ struct Aligner {
     return m;
   }
 
-  float sigma(const Alignment& there, const Alignment& back, float returned) const {
-    const double noise = std::sqrt(0.5 * (there.covariance(0, 0) + back.covariance(0, 0)));
-    const double predicted = std::hypot(noise, options.align_return_weight * returned);
+  float sigma(const Alignment& there, const Alignment& back) const {
+    const double predicted = std::sqrt(0.5 * (there.covariance(0, 0) + back.covariance(0, 0)));
     return static_cast<float>(std::hypot(options.align_noise.floor, options.align_noise.slope * predicted));
   }
 };

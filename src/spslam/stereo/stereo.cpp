@@ -29,12 +29,35 @@ void check_levels(std::span<const cv::Mat> left, std::span<const cv::Mat> right)
 }
 
 // The keypoints' own positions, the plainest measurement.
-StereoMeasurement from_keypoints(const Keypoint& l, const Keypoint& r, double pixel,
-                                 const DisparityNoise& noise) {
-  return {l.x - r.x, static_cast<float>(pixel * noise.floor), r.y - l.y, StereoStatus::kOk};
+std::vector<StereoMeasurement> from_keypoints(const Features& left, const Features& right,
+                                              std::span<const CoarseMatch> matches,
+                                              const StereoOptions& options) {
+  std::vector<StereoMeasurement> measurements(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    measurements[i].status = matches[i].status;
+    if (matches[i].status != StereoStatus::kOk) continue;
+    const Keypoint &l = left.keypoints[i], &r = right.keypoints[matches[i].right];
+    measurements[i] = {l.x - r.x, static_cast<float>(options.coarse_sigma), r.y - l.y, StereoStatus::kOk};
+  }
+  return measurements;
 }
 
 }  // namespace
+
+StereoOptions paper_stereo_options() {
+  StereoOptions options;
+  options.block_matching = true;
+  options.match_brightness = false;
+  options.alignment = false;
+  return options;
+}
+
+StereoOptions baseline_stereo_options() {
+  StereoOptions options = paper_stereo_options();
+  options.search_2d = false;
+  options.interpolation = Interpolation::kParabola;
+  return options;
+}
 
 std::vector<StereoMeasurement> measure_stereo(const StereoEye& left, const StereoEye& right,
                                               const StereoOptions& options) {
@@ -47,17 +70,9 @@ std::vector<StereoMeasurement> measure_stereo(const StereoEye& left, const Stere
     pixel_sizes.push_back(static_cast<double>(size.width) / level.cols);
   const std::vector<CoarseMatch> matches =
       match_rows(left.features, right.features, pixel_sizes, size.width, size.height, options);
-  if (options.block_matching) {
-    measurements = match_blocks(left.features, right.features, matches, left.levels, right.levels, options);
-  } else {
-    for (std::size_t i = 0; i < matches.size(); ++i) {
-      measurements[i].status = matches[i].status;
-      if (matches[i].status != StereoStatus::kOk) continue;
-      const Keypoint& l = left.features.keypoints[i];
-      measurements[i] = from_keypoints(l, right.features.keypoints[matches[i].right], pixel_sizes[l.octave],
-                                       options.coarse_noise);
-    }
-  }
+  measurements = options.block_matching ? match_blocks(left.features, right.features, matches, left.levels,
+                                                       right.levels, options)
+                                        : from_keypoints(left.features, right.features, matches, options);
   if (options.alignment && left.alignment != nullptr && right.alignment != nullptr)
     align_stereo(left.features.keypoints, *left.alignment, *right.alignment, options, measurements);
   return measurements;
