@@ -15,29 +15,41 @@ constexpr std::size_t kBlock = 128;  // landmarks
 struct PairSums {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
-  bool used = false;
+  Eigen::Matrix<double, 6, 4> by_offset = Eigen::Matrix<double, 6, 4>::Zero();
 };
 
 struct BlockSums {
-  std::vector<PairSums> pairs;  // poses x poses, [host * poses + pose]
+  std::vector<PairSums> pairs;  // one a pair of the table
+  Matrix4d offset_hessian = Matrix4d::Zero();
+  Vector4d offset_gradient = Vector4d::Zero();
   double cost = 0;
 };
 
-struct RelativeMotions {
-  std::vector<SE3> camera_from_host;  // [host * poses + pose]
-  std::vector<Matrix6d> adjoint;
-  std::size_t poses;
+struct Pair {
+  int host, pose;
+  SE3 camera_from_host;
+  Matrix6d adjoint;
+};
 
-  explicit RelativeMotions(const Problem& problem) : poses(problem.poses.size()) {
-    camera_from_host.reserve(poses * poses);
-    adjoint.reserve(poses * poses);
-    std::vector<SE3> world_from_host;
-    for (const PoseVariable& host : problem.poses) world_from_host.push_back(host.camera_from_world.inverse());
-    for (std::size_t h = 0; h < poses; ++h)
-      for (std::size_t c = 0; c < poses; ++c) {
-        camera_from_host.push_back(problem.poses[c].camera_from_world * world_from_host[h]);
-        adjoint.push_back(camera_from_host.back().adjoint());
+// The pairs that are observed, and each observation's place among them.
+struct PairTable {
+  std::vector<Pair> pairs;
+  std::vector<int> of_observation;
+
+  explicit PairTable(const Problem& problem) {
+    const std::size_t poses = problem.poses.size();
+    std::vector<int> index(poses * poses, -1);
+    of_observation.reserve(problem.observations.size());
+    for (const Observation& z : problem.observations) {
+      const int host = problem.landmarks[z.landmark].host;
+      int& at = index[static_cast<std::size_t>(host) * poses + static_cast<std::size_t>(z.pose)];
+      if (at < 0) {
+        at = static_cast<int>(pairs.size());
+        const SE3 motion = problem.poses[z.pose].camera_from_world * problem.poses[host].camera_from_world.inverse();
+        pairs.push_back({host, z.pose, motion, motion.adjoint()});
       }
+      of_observation.push_back(at);
+    }
   }
 };
 
@@ -54,8 +66,8 @@ Eigen::Vector3d weigh(const Eigen::Vector3d& residual, const Observation& z, con
 class BlockAccumulator {
  public:
   BlockAccumulator(const Problem& problem, const PoseColumns& columns, const SolverOptions& options,
-                   const RelativeMotions& motions, NormalEquations& out)
-      : problem_(problem), columns_(columns), options_(options), motions_(motions), out_(out) {}
+                   const PairTable& table, NormalEquations& out)
+      : problem_(problem), columns_(columns), options_(options), table_(table), out_(out) {}
 
   // Observations [first, last) of landmark l.
   void add_landmark(int l, std::size_t first, std::size_t last, BlockSums& sums) const {
@@ -65,7 +77,7 @@ class BlockAccumulator {
     sums.cost += landmark.prior_information * prior_error * prior_error;
     auto mixed = out_.mixed.row(l);
     mixed.setZero();
-    for (std::size_t i = first; i < last; ++i) add_observation(problem_.observations[i], landmark, mixed, hessian, gradient, sums);
+    for (std::size_t i = first; i < last; ++i) add_observation(i, landmark, mixed, hessian, gradient, sums);
     if (landmark.fixed) mixed.setZero();
     out_.landmark_hessian[l] = landmark.fixed ? 0 : hessian;
     out_.landmark_gradient[l] = landmark.fixed ? 0 : gradient;
@@ -73,37 +85,53 @@ class BlockAccumulator {
 
  private:
   template <class Row>
-  void add_observation(const Observation& z, const LandmarkVariable& landmark, Row& mixed, double& hessian,
+  void add_observation(std::size_t i, const LandmarkVariable& landmark, Row& mixed, double& hessian,
                        double& gradient, BlockSums& sums) const {
-    const std::size_t pair = static_cast<std::size_t>(landmark.host) * motions_.poses + static_cast<std::size_t>(z.pose);
-    const Linearized at = linearize(problem_.rig, motions_.camera_from_host[pair], landmark.bearing, landmark.inverse_depth, z.measured);
+    const Observation& z = problem_.observations[i];
+    const Pair& pair = table_.pairs[table_.of_observation[i]];
+    Linearized at = linearize(problem_.rig, pair.camera_from_host, landmark.bearing, landmark.inverse_depth, z.measured);
     if (!at.in_front) return;
+    const Vector4d basis = DisparityOffset::basis(problem_.rig, z.measured.x(), z.measured.y());
+    at.residual.z() += basis.dot(problem_.disparity_offset.coefficients);
     const Eigen::Vector3d w = weigh(at.residual, z, options_, sums.cost);
     const Eigen::Vector3d weighted_by_depth = w.cwiseProduct(at.by_inverse_depth);
     hessian += weighted_by_depth.dot(at.by_inverse_depth);
     gradient += weighted_by_depth.dot(at.residual);
+    if (columns_.offset >= 0) {
+      mixed.template segment<4>(columns_.offset) += weighted_by_depth.z() * basis.transpose();
+      sums.offset_hessian += w.z() * basis * basis.transpose();
+      sums.offset_gradient += w.z() * at.residual.z() * basis;
+    }
     if (landmark.host == z.pose) return;  // a host's own disparity says nothing of its pose
     const int host_column = columns_.of_pose[landmark.host], pose_column = columns_.of_pose[z.pose];
     if (host_column < 0 && pose_column < 0) return;
-    PairSums& sum = sums.pairs[pair];
-    sum.used = true;
+    PairSums& sum = sums.pairs[table_.of_observation[i]];
     const Eigen::Matrix<double, 6, 3> weighted = at.by_relative.transpose() * w.asDiagonal();
     sum.hessian.noalias() += weighted.lazyProduct(at.by_relative);
     sum.gradient.noalias() += weighted.lazyProduct(at.residual);
+    if (columns_.offset >= 0) sum.by_offset.noalias() += weighted.col(2) * basis.transpose();
     const Vector6d cross = weighted.lazyProduct(at.by_inverse_depth);
     if (pose_column >= 0) mixed.template segment<6>(pose_column) += cross.transpose();
-    if (host_column >= 0) mixed.template segment<6>(host_column) -= (motions_.adjoint[pair].transpose() * cross).transpose();
+    if (host_column >= 0) mixed.template segment<6>(host_column) -= (pair.adjoint.transpose() * cross).transpose();
   }
 
   const Problem& problem_;
   const PoseColumns& columns_;
   const SolverOptions& options_;
-  const RelativeMotions& motions_;
+  const PairTable& table_;
   NormalEquations& out_;
 };
 
+void add_offset_block(const Eigen::Matrix<double, 6, 4>& block, int pose, int offset, NormalEquations& out) {
+  if (pose < 0 || offset < 0) return;
+  out.pose_hessian.block<6, 4>(pose, offset) += block;
+  out.pose_hessian.block<4, 6>(offset, pose) += block.transpose();
+}
+
 // The relative motion camera_from_host changes by delta_camera - Ad delta_host.
-void add_pair(const PairSums& sum, const Matrix6d& adjoint, int host, int pose, NormalEquations& out) {
+void add_pair(const PairSums& sum, const Matrix6d& adjoint, int host, int pose, int offset, NormalEquations& out) {
+  add_offset_block(sum.by_offset, pose, offset, out);
+  add_offset_block(-adjoint.transpose() * sum.by_offset, host, offset, out);
   if (pose >= 0) {
     out.pose_hessian.block<6, 6>(pose, pose) += sum.hessian;
     out.pose_gradient.segment<6>(pose) += sum.gradient;
@@ -142,6 +170,18 @@ void add_motion_prior(const MotionPrior& prior, const Problem& problem, const Po
   }
 }
 
+void add_offset(const DisparityOffset& offset, int column, const std::vector<BlockSums>& sums, NormalEquations& out) {
+  const Vector4d error = offset.coefficients - offset.prior_mean;
+  out.cost += error.dot(offset.prior_information * error);
+  if (column < 0) return;
+  out.pose_hessian.block<4, 4>(column, column) += offset.prior_information;
+  out.pose_gradient.segment<4>(column) += offset.prior_information * error;
+  for (const BlockSums& block : sums) {
+    out.pose_hessian.block<4, 4>(column, column) += block.offset_hessian;
+    out.pose_gradient.segment<4>(column) += block.offset_gradient;
+  }
+}
+
 // Where each landmark's observations begin.
 std::vector<std::size_t> first_observations(const Problem& problem) {
   std::vector<std::size_t> first(problem.landmarks.size() + 1, 0);
@@ -167,28 +207,29 @@ PoseColumns::PoseColumns(const Problem& problem) {
     of_pose.push_back(pose.fixed ? -1 : count);
     if (!pose.fixed) count += 6;
   }
+  if (!problem.disparity_offset.fixed) offset = count, count += 4;
 }
 
 void build_normal_equations(const Problem& problem, const PoseColumns& columns, const SolverOptions& options,
                             NormalEquations& out) {
   reset(problem, columns, out);
-  const RelativeMotions motions(problem);
+  const PairTable table(problem);
   const std::vector<std::size_t> first = first_observations(problem);
   const std::size_t landmarks = problem.landmarks.size(), blocks = (landmarks + kBlock - 1) / kBlock;
   std::vector<BlockSums> sums(blocks);
-  const BlockAccumulator accumulator(problem, columns, options, motions, out);
+  const BlockAccumulator accumulator(problem, columns, options, table, out);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    sums[b].pairs.resize(motions.poses * motions.poses);
+    sums[b].pairs.resize(table.pairs.size());
     for (std::size_t l = b * kBlock; l < std::min((b + 1) * kBlock, landmarks); ++l)
       accumulator.add_landmark(static_cast<int>(l), first[l], first[l + 1], sums[b]);
   });
   for (const BlockSums& block : sums) {
     out.cost += block.cost;
     for (std::size_t pair = 0; pair < block.pairs.size(); ++pair)
-      if (block.pairs[pair].used)
-        add_pair(block.pairs[pair], motions.adjoint[pair], columns.of_pose[pair / motions.poses],
-                 columns.of_pose[pair % motions.poses], out);
+      add_pair(block.pairs[pair], table.pairs[pair].adjoint, columns.of_pose[table.pairs[pair].host],
+               columns.of_pose[table.pairs[pair].pose], columns.offset, out);
   }
+  add_offset(problem.disparity_offset, columns.offset, sums, out);
   for (const PosePrior& prior : problem.pose_priors) add_pose_prior(prior, problem, columns, out);
   for (const MotionPrior& prior : problem.motion_priors) add_motion_prior(prior, problem, columns, out);
 }

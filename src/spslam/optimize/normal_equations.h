@@ -7,11 +7,12 @@
 
 namespace spslam {
 
-// Which columns of the pose part belong to which pose.
+// Which columns of the pose part belong to which pose, and to the disparity offset, which is eliminated last like a pose.
 struct PoseColumns {
   explicit PoseColumns(const Problem& problem);
   std::vector<int> of_pose;  // first column, or -1 for a fixed pose
-  int count = 0;             // 6 x free poses
+  int offset = -1;           // first of the 4 columns of the disparity offset, after the poses; -1 if it is fixed
+  int count = 0;             // all columns
 };
 
 struct NormalEquations {

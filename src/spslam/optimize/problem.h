@@ -40,6 +40,25 @@ struct Observation {
   double weight = 1;                                        // w_t of equation (8) for far points, else 1
 };
 
+// What a knocked or badly rectified rig adds to its disparities (px), as a polynomial over the image, x = (u - cx)/fx,
+// y = (v - cy)/fy: c0 + c1 x + c2 y + c3 x^2. A small yaw of an eye gives c0 and c3, a roll c2, a difference of the focal
+// lengths c1. SPEC, last section; Kreso and Segvic, "Improving the egomotion estimation by correcting the calibration
+// bias", 2015.
+using Vector4d = Eigen::Matrix<double, 4, 1>;
+using Matrix4d = Eigen::Matrix<double, 4, 4>;
+struct DisparityOffset {
+  Vector4d coefficients = Vector4d::Zero();
+  Vector4d prior_mean = Vector4d::Zero();
+  Matrix4d prior_information = Matrix4d::Zero();
+  bool fixed = true;
+
+  static Vector4d basis(const StereoRig& rig, double u, double v) {
+    const double x = (u - rig.cx) / rig.fx, y = (v - rig.cy) / rig.fy;
+    return {1, x, y, x * x};
+  }
+  double at(const StereoRig& rig, double u, double v) const { return basis(rig, u, v).dot(coefficients); }
+};
+
 // (T_mean^-1 applied on the right) r = log(T T_mean^-1), cost r' information r.
 struct PosePrior {
   int pose = 0;
@@ -62,6 +81,7 @@ struct Problem {
   std::vector<Observation> observations;  // grouped by landmark, in ascending order
   std::vector<PosePrior> pose_priors;
   std::vector<MotionPrior> motion_priors;
+  DisparityOffset disparity_offset;
 };
 
 struct SolverOptions {
@@ -90,6 +110,8 @@ struct SolveSummary {
   // Inverse of the last (undamped) Hessian of the free poses with the landmarks eliminated, 6 x 6 blocks in the order of
   // the free poses; empty if it could not be inverted. Perturbations act from the left on camera_from_world.
   Eigen::MatrixXd covariance;
+  // Information of the disparity offset with everything else eliminated, without its prior; zero if it was fixed.
+  Matrix4d offset_information = Matrix4d::Zero();
 };
 
 // Residual (u, v, disparity minus measured, px) and its derivatives for one observation.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "spslam/optimize/normal_equations.h"
 #include "spslam/optimize/problem.h"
@@ -61,29 +62,37 @@ void apply(const Step& step, const PoseColumns& columns, Problem& problem) {
       SE3& pose = problem.poses[i].camera_from_world;
       pose = (SE3::exp(step.poses.segment<6>(column)) * pose).normalized();
     }
+  if (columns.offset >= 0) problem.disparity_offset.coefficients += step.poses.segment<4>(columns.offset);
   for (std::size_t l = 0; l < problem.landmarks.size(); ++l)
     problem.landmarks[l].inverse_depth += step.landmarks[static_cast<Eigen::Index>(l)];
 }
 
 // The values that a step changes, to go back to.
 struct Values {
-  explicit Values(const Problem& problem) : poses(problem.poses) {
+  explicit Values(const Problem& problem) : poses(problem.poses), offset(problem.disparity_offset) {
     for (const LandmarkVariable& landmark : problem.landmarks) inverse_depths.push_back(landmark.inverse_depth);
   }
   void restore(Problem& problem) const {
     problem.poses = poses;
+    problem.disparity_offset = offset;
     for (std::size_t l = 0; l < inverse_depths.size(); ++l) problem.landmarks[l].inverse_depth = inverse_depths[l];
   }
   std::vector<PoseVariable> poses;
+  DisparityOffset offset;
   std::vector<double> inverse_depths;
 };
 
-Eigen::MatrixXd pose_covariance(const NormalEquations& equations) {
-  if (equations.pose_gradient.size() == 0) return {};
+void find_uncertainty(const NormalEquations& equations, const PoseColumns& columns, const Problem& problem,
+                      SolveSummary& summary) {
+  if (columns.count == 0) return;
   const Reduced reduced = eliminate_landmarks(equations, 0);
   const Eigen::LLT<Eigen::MatrixXd> factor(reduced.hessian);
-  if (factor.info() != Eigen::Success) return {};
-  return factor.solve(Eigen::MatrixXd::Identity(reduced.hessian.rows(), reduced.hessian.cols()));
+  if (factor.info() != Eigen::Success) return;
+  const Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(columns.count, columns.count));
+  const int poses = columns.offset >= 0 ? columns.offset : columns.count;
+  summary.covariance = covariance.topLeftCorner(poses, poses);
+  if (columns.offset < 0) return;
+  summary.offset_information = covariance.bottomRightCorner<4, 4>().inverse() - problem.disparity_offset.prior_information;
 }
 
 }  // namespace
@@ -123,7 +132,7 @@ SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_cov
   }
   summary.final_cost = equations.cost;
   if (!std::isfinite(summary.final_cost)) summary.status = SolveStatus::kFailed;
-  if (want_covariance) summary.covariance = pose_covariance(equations);
+  if (want_covariance) find_uncertainty(equations, columns, problem, summary);
   return summary;
 }
 
