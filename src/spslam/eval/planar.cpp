@@ -40,11 +40,6 @@ Eigen::Vector3d automatic_up(std::span<const SE3> poses) {
   return system.llt().solve(camera_up).normalized();
 }
 
-// The rotation that takes up to z by the shortest way.
-Eigen::Matrix3d level_from_world(const Eigen::Vector3d& up) {
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-}
-
 // The turn about z in a rotation (its twist), in rad.
 double heading(const Eigen::Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);
@@ -88,6 +83,10 @@ Eigen::Vector3d up_direction(std::span<const SE3> poses, UpAxis axis) {
       break;
   }
   return poses.empty() ? Eigen::Vector3d(-Eigen::Vector3d::UnitY()) : automatic_up(poses);
+}
+
+Eigen::Matrix3d level_from_world(const Eigen::Vector3d& up) {
+  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 std::vector<AssociatedPose> planar_poses(std::span<const AssociatedPose> poses, UpAxis up_estimate,

@@ -20,6 +20,10 @@ std::span<const char* const> option_names(UpAxis);  // auto, x, y, z, -x, -y, -z
 // neither climbs nor sinks.
 Eigen::Vector3d up_direction(std::span<const SE3> poses, UpAxis axis);
 
+// The rotation that takes up to z by the shortest way: what is seen from above is then x to the right and y
+// up the page.
+Eigen::Matrix3d level_from_world(const Eigen::Vector3d& up);
+
 // The same pairs with z up, z = 0 and rotations about z only, each relative to its first. The mean heading of
 // the estimate is still its own: align_headings follows once the positions are aligned.
 std::vector<AssociatedPose> planar_poses(std::span<const AssociatedPose> poses, UpAxis up_estimate,

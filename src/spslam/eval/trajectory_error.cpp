@@ -12,7 +12,8 @@ namespace spslam {
 namespace {
 
 constexpr double kDegrees = 180 / M_PI;
-constexpr int kKittiStep = 10;  // poses between two starts
+constexpr int kKittiStep = 10;          // poses between two starts
+constexpr double kTimeRounding = 1e-3;  // share of the interval by which the last pose may come too early
 
 struct MotionError {
   double translation = 0;  // m
@@ -63,6 +64,7 @@ RpeResult relative_pose_error_per_second(std::span<const AssociatedPose> poses, 
   std::size_t end = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double target = poses[i].timestamp + interval;
+    if (target > poses.back().timestamp + kTimeRounding * interval) break;
     end = std::max(end, i);
     while (end + 1 < poses.size() &&
            std::abs(poses[end + 1].timestamp - target) <= std::abs(poses[end].timestamp - target))

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/process.h"
+
+namespace spslam {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// A half circle of 10 m radius in 10 s, scaled.
+std::string tum(double scale, double start = 0) {
+  std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  for (int i = 0; i <= 100; ++i) {
+    const double a = M_PI * i / 100;
+    text += std::to_string(start + 0.1 * i) + " " + std::to_string(scale * 10 * (1 - std::cos(a))) + " 0 " +
+            std::to_string(scale * 10 * std::sin(a)) + " 0 " + std::to_string(std::sin(a / 2)) + " 0 " +
+            std::to_string(std::cos(a / 2)) + "\n";
+  }
+  return text;
+}
+
+std::string kitti_line(int count, double step) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(step * i) + "\n";
+  return text;
+}
+
+TEST(Evaluate, PrintsTheTable) {
+  const ScratchFolder files;
+  const ProcessResult result =
+      run_spslam({"evaluate", files.write("e.txt", tum(0.9)), files.write("t.txt", tum(1))});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("101 of 101 poses"), HasSubstr("ATE [m]"), HasSubstr("scale ratio 1.1111")));
+}
+
+TEST(Evaluate, JsonParses) {
+  const ScratchFolder files;
+  const ProcessResult result = run_spslam({"evaluate", files.write("e.txt", tum(0.9)),
+                                           files.write("t.txt", tum(1)), "--json", "--align", "sim3"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["align"], "sim3");
+  EXPECT_NEAR(json["scale_ratio"].get<double>(), 1 / 0.9, 1e-6);
+  EXPECT_LT(json["ate_m"]["rmse"].get<double>(), 1e-5);
+  EXPECT_EQ(json["rpe_m_per_s"]["count"], 91);
+}
+
+TEST(Evaluate, KittiFilesWithoutTimesGoByIndex) {
+  const ScratchFolder files;
+  const ProcessResult result = run_spslam({"evaluate", files.write("e.txt", kitti_line(200, 1.01)),
+                                           files.write("t.txt", kitti_line(200, 1)), "--json", "--kitti"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["associated_by"], "index");
+  EXPECT_NEAR(json["kitti"]["t_rel_percent"].get<double>(), 1.01, 1e-3) << "101 m for 100 m";
+  EXPECT_TRUE(json["rpe_m_per_s"]["mean"].is_null());
+}
+
+TEST(Evaluate, KittiTimesAreLentToTheOther) {
+  const ScratchFolder files;
+  std::string times;
+  for (int i = 0; i < 200; ++i) times += std::to_string(0.1 * i) + "\n";
+  files.write("sequence/times.txt", times);
+  const ProcessResult result =
+      run_spslam({"evaluate", files.write("e.txt", kitti_line(200, 0.11)),
+                  files.write("sequence/poses.txt", kitti_line(200, 0.1)), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["associated_by"], "time");
+  EXPECT_NEAR(json["rpe_m_per_s"]["rmse"].get<double>(), 0.1, 1e-4);
+}
+
+TEST(Evaluate, PlanarTakesRtkGroundTruth) {
+  const ScratchFolder files;
+  std::string gps;  // t, east, north, 7 more, heading: the half circle of tum() starting northwards
+  for (int i = 0; i <= 50; ++i) {
+    const double a = M_PI * i / 50;
+    gps += std::to_string(0.2 * i) + "," + std::to_string(500 + 10 * (1 - std::cos(a))) + "," +
+           std::to_string(80 + 10 * std::sin(a)) + ",0,0,0,0,0,0,0," + std::to_string(a * 180 / M_PI) + "\n";
+  }
+  const ProcessResult result =
+      run_spslam({"evaluate", files.write("e.txt", tum(1)), files.write("GPSBase.csv", gps), "--planar",
+                  "--interpolate", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["associated_poses"], 101);
+  EXPECT_LT(json["ate_m"]["rmse"].get<double>(), 0.01);
+  EXPECT_LT(json["rpe_deg_per_s"]["rmse"].get<double>(), 0.1);
+}
+
+struct BadInput {
+  const char* name;
+  std::string estimate;  // "" leaves the file out
+  std::string said;
+};
+
+class BadInputs : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputs, AreExplainedOnStderrWithExitCodeOne) {
+  const ScratchFolder files;
+  const std::string estimate =
+      GetParam().estimate.empty() ? files.path("missing.txt") : files.write("e.txt", GetParam().estimate);
+  const ProcessResult result = run_spslam({"evaluate", estimate, files.write("t.txt", tum(1))});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, AllOf(StartsWith("spslam: "), HasSubstr(GetParam().said)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Cli, BadInputs,
+                         testing::Values(BadInput{"Missing", "", "missing.txt"},
+                                         BadInput{"NotATrajectory", "hello world\n", "e.txt"},
+                                         BadInput{"NotFinite", "0 nan 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n",
+                                                  "e.txt"},
+                                         BadInput{"OtherClock", tum(1, 1e6), "one clock"},
+                                         BadInput{"TooShort", "0 0 0 0 0 0 0 1\n", "only 1 poses"},
+                                         BadInput{"NoTimes", kitti_line(5, 1), "--times"}),
+                         [](const testing::TestParamInfo<BadInput>& test) { return test.param.name; });
+
+TEST(Evaluate, AFolderIsNoTrajectory) {
+  const ScratchFolder files;
+  const std::string truth = files.write("folder/t.txt", tum(1));
+  const ProcessResult result = run_spslam({"evaluate", files.path("folder"), truth});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("is a folder"));
+}
+
+}  // namespace
+}  // namespace spslam
