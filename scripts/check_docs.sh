@@ -56,7 +56,7 @@ check_commands() {  # PAGE
       grep -q -E -e "(^|[ ,])$option([^a-z-]|$)" <<<"${help_of[$subcommand]}" || complain "$1: spslam $subcommand has no $option"
     done < <(grep -o -E -e '--[a-z][a-z-]*' <<<"$command" | sort -u)
     while read -r key; do
-      [ "$key" = key ] || grep -q -F -w -e "$key" <<<"$options" || complain "$1: there is no option key '$key'"
+      [ "$key" = key ] || grep -q -E -e "^ *${key//./\\.}( |:|=|$)" <<<"$options" || complain "$1: there is no option key '$key'"
     done < <(grep -o -E -e '--set +[a-z0-9_.]+=' <<<"$command" | sed -E 's/^--set +//; s/=$//' | sort -u)
   done < <(code_of "$1" | grep -o -E '(^|[ /;(])spslam +[a-z][a-z-]+( [^|;&#]*)?' | sed -E 's/^[ \/;(]//' | sort -u)
 }
@@ -64,7 +64,8 @@ check_commands() {  # PAGE
 options="" subcommands=""
 if [ -x "$program" ]; then
   subcommands=$("$program" --help | sed -n '/^Subcommands:/,$p')
-  options=$("$program" config --print 2>/dev/null) || complain "spslam config --print fails"
+  # The keys of --set: those of a run and those of a simulated scene.
+  options=$("$program" config --print; "$program" simulate bank --print) || complain "spslam cannot print its options"
 else
   echo "no program at $program: commands are not checked"
 fi

@@ -30,7 +30,7 @@ fi
 
 "$program" run "$data" --output "$out/run" --sequential
 "$program" evaluate "$out/run/trajectory_kitti.txt" "$data/poses.txt"
-"$program" report "$out/run" --output "$out/report.html"
+"$program" report "$out/run" --truth "$data/poses.txt" --output "$out/report.html"
 echo
 echo "Trajectory, times and log: $out/run"
 echo "Report to look at:         $out/report.html"
