@@ -27,6 +27,8 @@ int fail(const char* message, int exit_code) {
 
 void add_commands(CLI::App& app, Command& chosen) {
   add_evaluate(app, chosen);
+  add_report(app, chosen);
+  add_simulate(app, chosen);
 }
 
 int run(int argc, char** argv) {

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/sim/texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spslam/sim/hash.h"
+#include "spslam/sim/texture_patterns.h"
+
+namespace spslam::sim {
+
+Texture::Texture(const std::vector<float>& values) {
+  std::vector<float> fine = values;
+  for (int level = 0, size = kSize; level < kLevels; ++level, size /= 2) {
+    const auto n = static_cast<std::size_t>(size);
+    Level& out = levels_[static_cast<std::size_t>(level)];
+    out.resize(n * n);
+    for (std::size_t i = 0; i < n * n; ++i)
+      out[i] = static_cast<std::uint8_t>(std::lround(std::clamp(fine[i] * 128, 0.0F, 255.0F)));
+    std::vector<float> half(n / 2 * (n / 2));
+    for (std::size_t y = 0; y < n / 2; ++y)
+      for (std::size_t x = 0; x < n / 2; ++x)
+        half[y * (n / 2) + x] = 0.25F * (fine[2 * y * n + 2 * x] + fine[2 * y * n + 2 * x + 1] +
+                                         fine[(2 * y + 1) * n + 2 * x] + fine[(2 * y + 1) * n + 2 * x + 1]);
+    fine = std::move(half);
+  }
+}
+
+namespace {
+
+float lattice(int x, int y, int period, std::uint32_t seed) {
+  const auto wrap = [period](int a) { return static_cast<std::uint32_t>(((a % period) + period) % period); };
+  return 2 * unit(mix(wrap(x), wrap(y), seed)) - 1;
+}
+
+float value_noise(float x, float y, int period, std::uint32_t seed) {
+  const float fx = std::floor(x), fy = std::floor(y);
+  const int i = static_cast<int>(fx), j = static_cast<int>(fy);
+  const auto ease = [](float t) { return t * t * (3 - 2 * t); };
+  const float a = ease(x - fx), b = ease(y - fy);
+  const float top = lattice(i, j, period, seed) * (1 - a) + lattice(i + 1, j, period, seed) * a;
+  const float bottom = lattice(i, j + 1, period, seed) * (1 - a) + lattice(i + 1, j + 1, period, seed) * a;
+  return top * (1 - b) + bottom * b;
+}
+
+}  // namespace
+
+float tile_noise(float x, float y, int cells, int octaves, std::uint32_t seed) {
+  float sum = 0, weight = 0.6F;
+  for (int octave = 0; octave < octaves; ++octave) {
+    sum += weight * value_noise(x * static_cast<float>(cells), y * static_cast<float>(cells), cells,
+                                seed + static_cast<std::uint32_t>(octave) * 101U);
+    weight *= 0.6F;
+    cells *= 2;
+  }
+  return sum;
+}
+
+Materials::Materials(std::uint32_t seed) : noise_(noise_pattern(seed)) {
+  textures_ = all_patterns(seed);
+  const auto set = [this](Material material, MaterialLook look) {
+    looks_[static_cast<std::size_t>(material)] = look;
+  };
+  set(Material::kRubble, {3.2F, 0.5F, 0.35F});
+  set(Material::kMasonry, {2.4F, 0.5F, 0.4F});
+  set(Material::kBrick, {2.0F, 0.4F, 0.4F});
+  set(Material::kConcrete, {2.4F, 0.4F, 0.5F});
+  set(Material::kGround, {4.0F, 0.6F, 0.4F});
+  set(Material::kWood, {1.5F, 0.4F, 0.3F});
+  set(Material::kLeaf, {0.6F, 0.0F, 0.0F});
+  set(Material::kPlaster, {3.0F, 0.15F, 0.3F});
+  set(Material::kFacade, {12.0F, 0.1F, 0.1F});
+  set(Material::kRoof, {2.4F, 0.3F, 0.4F});
+  set(Material::kForest, {70.0F, 0.0F, 0.3F});
+  set(Material::kPaint, {1.0F, 0.2F, 0.2F});
+  set(Material::kReed, {0.5F, 0.0F, 0.0F});
+  set(Material::kGlass, {2.0F, 0.0F, 0.2F});
+}
+
+float Materials::factor(Material material, float u, float v, float footprint, float dither) const {
+  const auto index = static_cast<std::size_t>(material);
+  const MaterialLook& look = looks_[index];
+  // Stochastic choice between two mip levels is trilinear filtering on average.
+  const auto level = [&](float tile) {
+    const float texels = footprint * static_cast<float>(Texture::kSize) / tile;
+    return texels <= 1 ? 0 : static_cast<int>(std::log2(texels) + dither);
+  };
+  float result = textures_[index].sample(u / look.tile, v / look.tile, level(look.tile));
+  constexpr float kGrain = 0.83F, kStain = 21.7F;  // m a tile
+  if (look.detail > 0 && footprint < 0.2F)
+    result *= 1 + look.detail * (noise_.sample(u / kGrain, v / kGrain, level(kGrain)) - 1);
+  if (look.macro > 0)
+    result *= 1 + look.macro * (noise_.sample(u / kStain, v / (0.4F * kStain), level(0.4F * kStain)) - 1);
+  return result;
+}
+
+}  // namespace spslam::sim
