@@ -28,21 +28,21 @@ class Texture {
   double at(double x, double y) const {
     double sum = 0;
     for (const Wave& w : waves_) sum += std::cos(w.kx * x + w.ky * y + w.phase);
-    return 128 + 8 * sum;
+    return 128 + 10 * sum;
   }
 
  private:
   struct Wave {
     double kx = 0, ky = 0, phase = 0;
   };
-  Wave waves_[40];
+  Wave waves_[24];
 };
 
 struct PairSettings {
   double disparity = 0, row_offset = 0;  // px
   double gain = 1, offset = 0;           // of the right image
   double noise = 0;                      // grey values, both images
-  int width = 320, height = 240;
+  int width = 260, height = 180;
 };
 
 inline cv::Mat render(const Texture& texture, double shift_x, double shift_y, double gain, double offset,
@@ -81,7 +81,7 @@ inline Descriptor random_descriptor(Random& random) {
 
 // Images and a grid of keypoints on level `octave`, each with a descriptor of its own, seen at the rounded
 // place in the right image (the place of a corner is rough: the fine search has to find the rest).
-inline Pair make_pair(const PairSettings& s, std::uint64_t seed, int octave = 0, int spacing = 10) {
+inline Pair make_pair(const PairSettings& s, std::uint64_t seed, int octave = 0, int spacing = 8) {
   const Texture texture(seed);
   Random random(seed + 1);
   Pair pair;

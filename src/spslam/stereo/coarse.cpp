@@ -102,7 +102,7 @@ struct RowMatcher {
     CoarseMatch match{place.keypoint, best.distance, StereoStatus::kOk};
     const float apart = kSamePlace * static_cast<float>(pixel_sizes[left.keypoints[i].octave]);
     for (const Candidate& c : candidates) {
-      if (best.distance <= options.max_distance_ratio * c.distance) continue;
+      if (best.distance < options.max_distance_ratio * c.distance) continue;
       const RowIndex::Entry& other = index.entries[c.entry];
       if (std::abs(other.x - place.x) > apart || std::abs(other.y - place.y) > apart)
         match.status = StereoStatus::kAmbiguous;
