@@ -13,9 +13,14 @@ namespace spslam {
 // 640 px, and scaled with the width. CV_8UC1, 1 inside, odd sides.
 cv::Mat structuring_element(StructuringElement element, int width);
 
-// A region, CV_8UC1, 0 or 255, found in an image smaller than `size`, dilated by the element of size.width
-// and brought to `size`. Exact if the region already has this size; else its outline is interpolated between
-// the small image's pixels.
-cv::Mat dilate_region(const cv::Mat& region, StructuringElement element, cv::Size size);
+// A region (CV_8UC1, 0 or 255) that was found in an image smaller than one of `width` px, dilated by the
+// element of that width. CV_8UC1 of the region's size: at least kInside within the dilation; where the region
+// has its full size exactly so, else rising towards the region, so that its outline can be interpolated.
+// Empty if the region is.
+constexpr int kInside = 128;
+cv::Mat dilate_region(const cv::Mat& region, StructuringElement element, int width);
+
+// Such a field at pixel (x, y) of an image of the full size, which is where it must lie.
+bool is_inside(const cv::Mat& field, cv::Size size, int x, int y);
 
 }  // namespace spslam

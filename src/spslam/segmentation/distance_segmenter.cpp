@@ -11,20 +11,10 @@
 
 namespace spslam {
 
-cv::Mat SegmentationResult::mask() const {
-  return regions.empty() ? cv::Mat() : cv::Mat(regions != 0);
-}
-
-Region SegmentationResult::at(float x, float y) const {
-  const int column = cvRound(x), row = cvRound(y);
-  if (column < 0 || row < 0 || column >= regions.cols || row >= regions.rows) return Region::kNear;
-  return static_cast<Region>(regions.at<std::uint8_t>(row, column));
-}
-
-std::vector<Region> label_keypoints(const SegmentationResult& result, std::span<const Keypoint> keypoints) {
+std::vector<Region> label_keypoints(const RegionMap& regions, std::span<const Keypoint> keypoints) {
   std::vector<Region> labels;
   labels.reserve(keypoints.size());
-  for (const Keypoint& keypoint : keypoints) labels.push_back(result.at(keypoint.x, keypoint.y));
+  for (const Keypoint& keypoint : keypoints) labels.push_back(regions.at(keypoint.x, keypoint.y));
   return labels;
 }
 
@@ -41,7 +31,7 @@ Split DistanceSegmenter::next_split(const Histogram& present) {
     for (int i = 0; i < 256; ++i) average[i] += past[i] / static_cast<double>(window_.size());
   }
   const Split best = refine_threshold(average, otsu(average));
-  if (last_.regions.empty()) return best;
+  if (is_first()) return best;
   const double limited = std::clamp(best.threshold, last_.threshold - options_.rate_limit,
                                     last_.threshold + options_.rate_limit);
   return split_at(average, limited);
@@ -49,7 +39,7 @@ Split DistanceSegmenter::next_split(const Histogram& present) {
 
 // Whether the bright share jumped as no motion of a boat lets it.
 bool DistanceSegmenter::is_upset(double bright_share) const {
-  return !last_.regions.empty() && held_ < options_.hold_frames &&
+  return !is_first() && held_ < options_.hold_frames &&
          std::abs(bright_share - last_.bright_share) > options_.share_jump;
 }
 
@@ -59,7 +49,7 @@ SegmentationResult DistanceSegmenter::update(const cv::Mat& left) {
     throw InputError("segmentation: the image must be 8-bit grey (CV_8UC1), but has type " +
                      std::to_string(left.type()) + "; convert it first");
   }
-  if (!last_.regions.empty() && last_.regions.size() != left.size()) *this = DistanceSegmenter(options_);
+  if (!is_first() && last_.regions.size != left.size()) *this = DistanceSegmenter(options_);
   const cv::Mat small = shrink(left, options_.downscale);
   const Histogram present = histogram(small);
   const Split split = next_split(present);
@@ -82,10 +72,11 @@ SegmentationResult DistanceSegmenter::update(const cv::Mat& left) {
   const bool is_bimodal = split.bimodality >= options_.minimum_bimodality;
   const bool has_contrast = split.contrast() >= options_.minimum_contrast;
   const bool has_both = std::min(result.bright_share, 1 - result.bright_share) >= options_.minimum_share;
-  result.regions = is_bimodal && has_contrast && has_both
-                       ? find_regions(small, split.threshold, options_, left.size())
-                       : cv::Mat(left.size(), CV_8UC1, cv::Scalar(0));
-  result.has_far = cv::countNonZero(result.regions) > 0;
+  result.regions.size = left.size();
+  if (is_bimodal && has_contrast && has_both) {
+    result.regions = find_regions(small, split.threshold, options_, left.size());
+  }
+  result.has_far = !result.regions.empty();
   last_ = result;
   return result;
 }

@@ -24,16 +24,11 @@ struct SegmentationResult {
   double bimodality = 0;    // of the averaged histogram: between-class over total variance, 0 to 1
   double contrast = 0;      // grey, of the averaged histogram: difference of the classes' means
   double bright_share = 0;  // of this frame at the threshold
-  cv::Mat regions;          // CV_8UC1 of the image's size, holds Region values; empty for an empty image
-
-  // CV_8UC1, 255 where the pixel is not near (both far regions, as the paper has it), else 0.
-  cv::Mat mask() const;
-  // The region at a position in px, that of the nearest pixel; near outside of the image.
-  Region at(float x, float y) const;
+  RegionMap regions;        // regions.at(x, y), regions.mask()
 };
 
 // Every keypoint takes the label of its pixel.
-std::vector<Region> label_keypoints(const SegmentationResult& result, std::span<const Keypoint> keypoints);
+std::vector<Region> label_keypoints(const RegionMap& regions, std::span<const Keypoint> keypoints);
 
 // Holds the past frames' histograms; one for each camera.
 class DistanceSegmenter {
@@ -50,6 +45,7 @@ class DistanceSegmenter {
  private:
   Split next_split(const Histogram& present);
   bool is_upset(double bright_share) const;
+  bool is_first() const { return last_.regions.size.empty(); }
 
   SegmentationOptions options_;
   std::deque<Histogram> window_;

@@ -40,6 +40,17 @@ bool is_mirror(const Component& component, const Component& uppermost, int rows)
   return sky_is_seen ? component.label != uppermost.label && component.top > uppermost.centre : true;
 }
 
+// 255 where the component belongs to the region.
+cv::Mat pixels_of(const cv::Mat& labels, const std::vector<Region>& region_of, Region region) {
+  cv::Mat pixels(labels.size(), CV_8UC1);
+  for (int y = 0; y < labels.rows; ++y) {
+    const int* label = labels.ptr<int>(y);
+    std::uint8_t* pixel = pixels.ptr<std::uint8_t>(y);
+    for (int x = 0; x < labels.cols; ++x) pixel[x] = region_of[label[x]] == region ? 255 : 0;
+  }
+  return pixels;
+}
+
 }  // namespace
 
 cv::Mat shrink(const cv::Mat& grey, int factor) {
@@ -50,8 +61,30 @@ cv::Mat shrink(const cv::Mat& grey, int factor) {
   return small;
 }
 
-cv::Mat find_regions(const cv::Mat& grey, double threshold, const SegmentationOptions& options,
-                     cv::Size size) {
+Region RegionMap::at(float x, float y) const {
+  const int column = cvRound(x), row = cvRound(y);
+  if (column < 0 || row < 0 || column >= size.width || row >= size.height) return Region::kNear;
+  if (is_inside(far, size, column, row)) return Region::kFar;
+  return is_inside(mirror, size, column, row) ? Region::kMirror : Region::kNear;
+}
+
+cv::Mat RegionMap::labels() const {
+  cv::Mat labels(size, CV_8UC1);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      labels.at<std::uint8_t>(y, x) =
+          static_cast<std::uint8_t>(at(static_cast<float>(x), static_cast<float>(y)));
+    }
+  }
+  return labels;
+}
+
+cv::Mat RegionMap::mask() const {
+  return labels() != static_cast<int>(Region::kNear);
+}
+
+RegionMap find_regions(const cv::Mat& grey, double threshold, const SegmentationOptions& options,
+                       cv::Size size) {
   // Equation (2): a whole number is above the threshold if it is above its floor.
   const cv::Mat bright = grey > std::floor(threshold);
   cv::Mat labels, stats, centroids;
@@ -59,15 +92,13 @@ cv::Mat find_regions(const cv::Mat& grey, double threshold, const SegmentationOp
   const double minimum_area = options.minimum_region * static_cast<double>(grey.total());
   const std::vector<Component> components = largest(stats, centroids, options.regions, minimum_area);
 
-  cv::Mat far(grey.size(), CV_8UC1, cv::Scalar(0)), mirror = far.clone();
+  std::vector<Region> region_of(stats.rows, Region::kNear);
   for (const Component& component : components) {
-    (is_mirror(component, components.front(), grey.rows) ? mirror : far)
-        .setTo(255, labels == component.label);
+    region_of[component.label] =
+        is_mirror(component, components.front(), grey.rows) ? Region::kMirror : Region::kFar;
   }
-  cv::Mat regions(size, CV_8UC1, cv::Scalar(static_cast<int>(Region::kNear)));
-  regions.setTo(static_cast<int>(Region::kMirror), dilate_region(mirror, options.element, size));
-  regions.setTo(static_cast<int>(Region::kFar), dilate_region(far, options.element, size));
-  return regions;
+  return {size, dilate_region(pixels_of(labels, region_of, Region::kFar), options.element, size.width),
+          dilate_region(pixels_of(labels, region_of, Region::kMirror), options.element, size.width)};
 }
 
 }  // namespace spslam
