@@ -10,6 +10,7 @@ preset=${1:-asan}
 filter=${2:-*}
 export ASAN_OPTIONS=strict_string_checks=1:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+export TSAN_OPTIONS=suppressions=$PWD/tests/tsan.supp
 export GTEST_FILTER=$filter GTEST_BRIEF=1
 
 cmake --preset "$preset" -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" >/dev/null
