@@ -65,7 +65,7 @@ options="" subcommands=""
 if [ -x "$program" ]; then
   subcommands=$("$program" --help | sed -n '/^Subcommands:/,$p')
   # The keys of --set: those of a run and those of a simulated scene.
-  options=$("$program" config --print; "$program" simulate bank --print) || complain "spslam cannot print its options"
+  options=$("$program" config --print && "$program" simulate bank --print) || complain "spslam cannot print its options"
 else
   echo "no program at $program: commands are not checked"
 fi
