@@ -11,11 +11,13 @@ namespace spslam {
 namespace {
 
 constexpr int kMaxRows = 15;
-constexpr int kStride = 16;  // floats a row; columns beyond the patch have zero weight, so that loops have a fixed length
-constexpr int kWide = 24;    // floats a row of the template with a frame of one pixel around it
+constexpr int kStride =
+    16;  // floats a row; columns beyond the patch have zero weight, so that loops have a fixed length
+constexpr int kWide = 24;  // floats a row of the template with a frame of one pixel around it
 
-// The template on one level and what of it does not depend on the target: deviations t from its mean, and gradients with
-// the mean and the part along t taken out, so that offset and gain of brightness drop out of the normal equations.
+// The template on one level and what of it does not depend on the target: deviations t from its mean, and
+// gradients with the mean and the part along t taken out, so that offset and gain of brightness drop out of
+// the normal equations.
 struct Template {
   alignas(64) float ones[kMaxRows * kStride];  // 1 inside the patch, 0 in the padding
   alignas(64) float t[kMaxRows * kStride];
@@ -30,13 +32,15 @@ struct Sums {
   float value = 0, square = 0, along_t = 0, along_x = 0, along_y = 0;
 };
 
-// True if a patch of this radius around (x, y), plus a frame of one pixel, is inside the level and its border.
+// True if a patch of this radius around (x, y), plus a frame of one pixel, is inside the level and its
+// border.
 bool readable(const cv::Mat& level, float x, float y) {
-  return x >= 0 && y >= 0 && x <= static_cast<float>(level.cols - 1) && y <= static_cast<float>(level.rows - 1);
+  return x >= 0 && y >= 0 && x <= static_cast<float>(level.cols - 1) &&
+         y <= static_cast<float>(level.rows - 1);
 }
 
-SPSLAM_SIMD void sample_upright(const unsigned char* data, std::size_t step, float x, float y, int radius, int rows,
-                                float* out, int stride, int columns) {
+SPSLAM_SIMD void sample_upright(const unsigned char* data, std::size_t step, float x, float y, int radius,
+                                int rows, float* out, int stride, int columns) {
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
   const float ax = x - static_cast<float>(ix), ay = y - static_cast<float>(iy);
   const float w00 = (1 - ax) * (1 - ay), w01 = ax * (1 - ay), w10 = (1 - ax) * ay, w11 = ax * ay;
@@ -45,13 +49,14 @@ SPSLAM_SIMD void sample_upright(const unsigned char* data, std::size_t step, flo
     const unsigned char* b = a + step;
     float* o = out + r * stride;
     for (int c = 0; c < columns; ++c)
-      o[c] = w00 * static_cast<float>(a[c]) + w01 * static_cast<float>(a[c + 1]) + w10 * static_cast<float>(b[c]) +
-             w11 * static_cast<float>(b[c + 1]);
+      o[c] = w00 * static_cast<float>(a[c]) + w01 * static_cast<float>(a[c + 1]) +
+             w10 * static_cast<float>(b[c]) + w11 * static_cast<float>(b[c + 1]);
   }
 }
 
 // As above, but the grid is turned and stretched by `warp` (from-offsets of target offsets).
-bool sample_warped(const cv::Mat& level, float x, float y, const Eigen::Matrix2f& warp, int radius, float* out, int stride) {
+bool sample_warped(const cv::Mat& level, float x, float y, const Eigen::Matrix2f& warp, int radius,
+                   float* out, int stride) {
   constexpr float kMargin = AlignmentPyramid::kBorder - 2;
   const float reach_x = static_cast<float>(radius) * (std::abs(warp(0, 0)) + std::abs(warp(0, 1)));
   const float reach_y = static_cast<float>(radius) * (std::abs(warp(1, 0)) + std::abs(warp(1, 1)));
@@ -64,8 +69,9 @@ bool sample_warped(const cv::Mat& level, float x, float y, const Eigen::Matrix2f
       const float ax = sx - static_cast<float>(ix), ay = sy - static_cast<float>(iy);
       const unsigned char* a = level.data + static_cast<std::ptrdiff_t>(level.step) * iy + ix;
       const unsigned char* b = a + level.step;
-      out[(r + radius) * stride + c + radius] = (1 - ay) * ((1 - ax) * static_cast<float>(a[0]) + ax * static_cast<float>(a[1])) +
-                                                ay * ((1 - ax) * static_cast<float>(b[0]) + ax * static_cast<float>(b[1]));
+      out[(r + radius) * stride + c + radius] =
+          (1 - ay) * ((1 - ax) * static_cast<float>(a[0]) + ax * static_cast<float>(a[1])) +
+          ay * ((1 - ax) * static_cast<float>(b[0]) + ax * static_cast<float>(b[1]));
     }
   }
   return true;
@@ -100,7 +106,8 @@ void fill_template(const float* wide, int size, Template& out) {
   }
 }
 
-// Removes mean and gain directions and prepares the 2 x 2 system. False for a patch without structure in both directions.
+// Removes mean and gain directions and prepares the 2 x 2 system. False for a patch without structure in both
+// directions.
 bool finish_template(Template& p, float min_contrast) {
   const int n = p.rows * kStride;
   const auto count = static_cast<float>(p.rows * p.rows);
@@ -121,12 +128,13 @@ bool finish_template(Template& p, float min_contrast) {
   return true;
 }
 
-bool make_template(const cv::Mat& level, const Eigen::Vector2f& at, const Eigen::Matrix2f& from_to_warp, int radius,
-                   float min_contrast, Template& out) {
+bool make_template(const cv::Mat& level, const Eigen::Vector2f& at, const Eigen::Matrix2f& from_to_warp,
+                   int radius, float min_contrast, Template& out) {
   alignas(64) float wide[(kMaxRows + 2) * kWide];
   const int framed = radius + 1;
   if ((from_to_warp - Eigen::Matrix2f::Identity()).cwiseAbs().maxCoeff() < 1e-3F)
-    sample_upright(level.data, level.step, at.x(), at.y(), framed, 2 * framed + 1, wide, kWide, 2 * framed + 1);
+    sample_upright(level.data, level.step, at.x(), at.y(), framed, 2 * framed + 1, wide, kWide,
+                   2 * framed + 1);
   else if (!sample_warped(level, at.x(), at.y(), from_to_warp, framed, wide, kWide))
     return false;
   fill_template(wide, 2 * radius + 1, out);
@@ -154,13 +162,14 @@ SPSLAM_SIMD Sums project_onto(const Template& p, const float* image) {
 }
 
 // Gauss-Newton on one level. position: px of that level, in and out.
-AlignmentStatus align_on_level(const Template& p, const cv::Mat& target, Eigen::Vector2f& position, Sums& sums,
-                               const AlignmentOptions& options) {
+AlignmentStatus align_on_level(const Template& p, const cv::Mat& target, Eigen::Vector2f& position,
+                               Sums& sums, const AlignmentOptions& options) {
   alignas(64) float patch[kMaxRows * kStride];
   const auto limit = static_cast<float>(options.convergence * options.convergence);
   for (int i = 0; i < options.iterations; ++i) {
     if (!readable(target, position.x(), position.y())) return AlignmentStatus::kOutside;
-    sample_upright(target.data, target.step, position.x(), position.y(), options.patch_radius, p.rows, patch, kStride, kStride);
+    sample_upright(target.data, target.step, position.x(), position.y(), options.patch_radius, p.rows, patch,
+                   kStride, kStride);
     sums = project_onto(p, patch);
     const float gain = sums.along_t / p.energy;
     if (!(gain > 0.1F)) return AlignmentStatus::kDifferent;
@@ -172,7 +181,8 @@ AlignmentStatus align_on_level(const Template& p, const cv::Mat& target, Eigen::
   return AlignmentStatus::kUnconverged;
 }
 
-// The quality of the match from the last sums: correlation, and the covariance that the residual noise gives the position.
+// The quality of the match from the last sums: correlation, and the covariance that the residual noise gives
+// the position.
 void judge(const Template& p, const Sums& sums, const AlignmentOptions& options, Alignment& result) {
   const auto count = static_cast<float>(p.rows * p.rows);
   const float energy = std::max(sums.square - sums.value * sums.value / count, 1e-6F);
@@ -181,7 +191,8 @@ void judge(const Template& p, const Sums& sums, const AlignmentOptions& options,
   const float residual = std::max(energy - gain * sums.along_t, 0.0F) / std::max(count - 4, 1.0F);
   const auto floor = static_cast<float>(options.noise * options.noise);
   result.covariance = std::max(residual, floor) / (gain * gain) * p.inverse_hessian;
-  if (result.status == AlignmentStatus::kOk && result.correlation < static_cast<float>(options.min_correlation))
+  if (result.status == AlignmentStatus::kOk &&
+      result.correlation < static_cast<float>(options.min_correlation))
     result.status = AlignmentStatus::kDifferent;
 }
 
@@ -204,7 +215,8 @@ Alignment align_patch(const AlignmentPyramid& from, const Eigen::Vector2f& point
     Eigen::Vector2f position = result.position * scale;
     result.status = AlignmentStatus::kFlat;
     Sums sums;
-    if (make_template(from.level(level), at, from_to_warp, options.patch_radius, static_cast<float>(options.min_contrast), patch))
+    if (make_template(from.level(level), at, from_to_warp, options.patch_radius,
+                      static_cast<float>(options.min_contrast), patch))
       result.status = align_on_level(patch, to.level(level), position, sums, options);
     if (level == 0) {
       result.position = position;

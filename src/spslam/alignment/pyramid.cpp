@@ -31,8 +31,10 @@ AlignmentPyramid::AlignmentPyramid(const cv::Mat& grey, int levels) {
   cv::Size size = grey.size();
   for (int i = 0; i < levels && (i == 0 || std::min(size.width, size.height) >= kSmallestSide); ++i) {
     cv::Mat view = bordered_view(size);
-    if (i == 0) grey.copyTo(view);
-    else cv::pyrDown(levels_.back(), view, size);
+    if (i == 0)
+      grey.copyTo(view);
+    else
+      cv::pyrDown(levels_.back(), view, size);
     fill_border(view);
     levels_.push_back(view);
     size = cv::Size((size.width + 1) / 2, (size.height + 1) / 2);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// The image pyramid that patches are aligned in: each level half the size of the one below, with a border around it.
+// The image pyramid that patches are aligned in: each level half the size of the one below, with a border
+// around it.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,7 +11,8 @@ namespace spslam {
 
 class AlignmentPyramid {
  public:
-  static constexpr int kBorder = 24;  // px around each level; a patch whose centre is inside may be read without checks
+  static constexpr int kBorder =
+      24;  // px around each level; a patch whose centre is inside may be read without checks
 
   AlignmentPyramid() = default;
   // grey: CV_8UC1, not empty. levels >= 1; fewer are made when the image gets smaller than a patch.

@@ -23,7 +23,9 @@ bool cut_patch(const cv::Mat& level, int x, int y, int radius, WholePatch& out) 
   if (x < 0 || y < 0 || x >= level.cols || y >= level.rows) return false;
   out.size = 2 * radius + 1;
   int sum = 0;
-  const auto pixel = [&](int r, int c) { return level.data[static_cast<std::ptrdiff_t>(level.step) * (y - radius + r) + x - radius + c]; };
+  const auto pixel = [&](int r, int c) {
+    return level.data[static_cast<std::ptrdiff_t>(level.step) * (y - radius + r) + x - radius + c];
+  };
   for (int r = 0; r < out.size; ++r)
     for (int c = 0; c < out.size; ++c) sum += pixel(r, c);
   const int mean = (sum + out.size * out.size / 2) / (out.size * out.size);
@@ -53,17 +55,20 @@ SPSLAM_SIMD float correlate(const WholePatch& patch, const unsigned char* corner
   const auto count = static_cast<float>(patch.size * patch.size);
   const float mean = static_cast<float>(sum) / count;
   const float energy = static_cast<float>(square) - mean * static_cast<float>(sum);
-  return (static_cast<float>(cross) - mean * static_cast<float>(patch_sum)) / std::sqrt(std::max(energy, 1.0F) * patch.energy);
+  return (static_cast<float>(cross) - mean * static_cast<float>(patch_sum)) /
+         std::sqrt(std::max(energy, 1.0F) * patch.energy);
 }
 
 }  // namespace
 
-std::optional<float> search_row(const AlignmentPyramid& left, const Eigen::Vector2f& point, const AlignmentPyramid& right,
-                                int patch_radius, const RowSearchOptions& options) {
+std::optional<float> search_row(const AlignmentPyramid& left, const Eigen::Vector2f& point,
+                                const AlignmentPyramid& right, int patch_radius,
+                                const RowSearchOptions& options) {
   const int level = std::min({options.level, left.size() - 1, right.size() - 1});
   const float scale = 1.0F / static_cast<float>(1 << level);
   const cv::Mat& target = right.level(level);
-  const int x = static_cast<int>(std::lround(point.x() * scale)), y = static_cast<int>(std::lround(point.y() * scale));
+  const int x = static_cast<int>(std::lround(point.x() * scale)),
+            y = static_cast<int>(std::lround(point.y() * scale));
   WholePatch patch;
   if (!cut_patch(left.level(level), x, y, patch_radius, patch)) return std::nullopt;
   const int first = std::max(0, x - static_cast<int>(std::lround(options.max_disparity * scale)));
@@ -73,14 +78,16 @@ std::optional<float> search_row(const AlignmentPyramid& left, const Eigen::Vecto
   for (int row = std::max(0, y - options.rows); row <= std::min(target.rows - 1, y + options.rows); ++row)
     for (int column = first; column <= last; ++column) {
       const auto step = static_cast<std::ptrdiff_t>(target.step);
-      const float c = correlate(patch, target.data + step * (row - patch_radius) + column - patch_radius, step);
+      const float c =
+          correlate(patch, target.data + step * (row - patch_radius) + column - patch_radius, step);
       float& best = best_of_column[static_cast<std::size_t>(column - first)];
       best = std::max(best, c);
     }
   const auto best = std::max_element(best_of_column.begin(), best_of_column.end());
   if (*best < static_cast<float>(options.min_correlation)) return std::nullopt;
   for (auto other = best_of_column.begin(); other != best_of_column.end(); ++other)
-    if (std::abs(other - best) > 2 && *other > *best - static_cast<float>(options.uniqueness)) return std::nullopt;
+    if (std::abs(other - best) > 2 && *other > *best - static_cast<float>(options.uniqueness))
+      return std::nullopt;
   const auto column = static_cast<float>(first + (best - best_of_column.begin()));
   return (point.x() * scale - column) / scale;
 }

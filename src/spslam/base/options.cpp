@@ -32,7 +32,8 @@ Number parse_number(const std::string& key, const std::string& text, const char*
   const char* end = text.data() + text.size();
   const auto [stop, code] = std::from_chars(text.data(), end, value);
   if (code != std::errc() || stop != end)
-    throw OptionError("option " + key + ": '" + text + "' is not " + kind + "; give one, for example " + key + "=1");
+    throw OptionError("option " + key + ": '" + text + "' is not " + kind + "; give one, for example " + key +
+                      "=1");
   return value;
 }
 
@@ -44,7 +45,8 @@ std::string nearest_name(std::string_view word, std::span<const std::string> can
   for (const std::string& candidate : candidates) {
     std::size_t distance = edit_distance(word, candidate);
     // "patch_radius" is meant as "alignment.patch_radius": compare with the last part of a dotted name too.
-    if (const auto dot = candidate.rfind('.'); dot != std::string::npos && word.find('.') == std::string_view::npos)
+    if (const auto dot = candidate.rfind('.');
+        dot != std::string::npos && word.find('.') == std::string_view::npos)
       distance = std::min(distance, edit_distance(word, std::string_view(candidate).substr(dot + 1)));
     if (distance < best_distance) best_distance = distance, best = candidate;
   }
@@ -90,7 +92,8 @@ void throw_out_of_range(const std::string& key, const std::string& value, const 
 
 void throw_unknown(const std::string& key, std::span<const std::string> known) {
   const std::string nearest = nearest_name(key, known);
-  throw OptionError("unknown option '" + key + "'" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
+  throw OptionError("unknown option '" + key + "'" +
+                    (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
                     " `spslam config --print` lists all");
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Options are plain structs with a static fields() that lists every member once: name, unit, meaning, range. The YAML
-// loader, --set, --help, `spslam config --print` and check() are all visitors of that one list.
+// Options are plain structs with a static fields() that lists every member once: name, unit, meaning, range.
+// The YAML loader, --set, --help, `spslam config --print` and check() are all visitors of that one list.
 //
 //   struct AlignmentOptions {
 //     int patch_radius = 6;
@@ -10,8 +10,8 @@
 //     }
 //   };
 //
-// A member that is itself such a struct is visited with visit.group("alignment", self.alignment). An enum E is an option
-// if option_names(E) (found by argument) returns its values' names in order, first value 0.
+// A member that is itself such a struct is visited with visit.group("alignment", self.alignment). An enum E
+// is an option if option_names(E) (found by argument) returns its values' names in order, first value 0.
 #pragma once
 
 #include <cmath>
@@ -57,20 +57,30 @@ std::string print_double(double value);
 
 template <class T>
 std::string to_text(const T& value) {
-  if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
-  else if constexpr (std::is_enum_v<T>) return option_names(value)[static_cast<int>(value)];
-  else if constexpr (std::is_integral_v<T>) return std::to_string(value);
-  else if constexpr (std::is_floating_point_v<T>) return print_double(value);
-  else return value;
+  if constexpr (std::is_same_v<T, bool>)
+    return value ? "true" : "false";
+  else if constexpr (std::is_enum_v<T>)
+    return option_names(value)[static_cast<int>(value)];
+  else if constexpr (std::is_integral_v<T>)
+    return std::to_string(value);
+  else if constexpr (std::is_floating_point_v<T>)
+    return print_double(value);
+  else
+    return value;
 }
 
 template <class T>
 void from_text(const std::string& key, const std::string& text, T& value) {
-  if constexpr (std::is_same_v<T, bool>) value = parse_bool(key, text);
-  else if constexpr (std::is_enum_v<T>) value = static_cast<T>(parse_name(key, text, option_names(value)));
-  else if constexpr (std::is_integral_v<T>) value = static_cast<T>(parse_int(key, text));
-  else if constexpr (std::is_floating_point_v<T>) value = parse_double(key, text);
-  else value = text;
+  if constexpr (std::is_same_v<T, bool>)
+    value = parse_bool(key, text);
+  else if constexpr (std::is_enum_v<T>)
+    value = static_cast<T>(parse_name(key, text, option_names(value)));
+  else if constexpr (std::is_integral_v<T>)
+    value = static_cast<T>(parse_int(key, text));
+  else if constexpr (std::is_floating_point_v<T>)
+    value = parse_double(key, text);
+  else
+    value = text;
 }
 
 // Walks the tree of options and calls f(key, member, info) for each leaf.

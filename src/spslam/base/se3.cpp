@@ -16,7 +16,8 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& phi) {
   const Eigen::Matrix3d k = cross_matrix(phi);
   if (angle < kSmallAngle) return Eigen::Matrix3d::Identity() + 0.5 * k + k * k / 6.0;
   const double a2 = angle * angle;
-  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / a2 * k + (angle - std::sin(angle)) / (a2 * angle) * k * k;
+  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / a2 * k +
+         (angle - std::sin(angle)) / (a2 * angle) * k * k;
 }
 
 }  // namespace

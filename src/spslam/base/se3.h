@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Rigid motions and their Lie algebra. T_a_b maps points in frame b to frame a. Twists are (translation, rotation),
-// perturbations act from the left: T <- exp(xi) T. (Sola, Deray, Atchuthan, "A micro Lie theory", 2018.)
+// Rigid motions and their Lie algebra. T_a_b maps points in frame b to frame a. Twists are (translation,
+// rotation), perturbations act from the left: T <- exp(xi) T. (Sola, Deray, Atchuthan, "A micro Lie theory",
+// 2018.)
 #pragma once
 
 #include <Eigen/Core>
@@ -37,7 +38,9 @@ struct SE3 {
   friend SE3 operator*(const SE3& a, const SE3& b) {
     return {a.rotation * b.rotation, a.rotation * b.translation + a.translation};
   }
-  friend Eigen::Vector3d operator*(const SE3& a, const Eigen::Vector3d& p) { return a.rotation * p + a.translation; }
+  friend Eigen::Vector3d operator*(const SE3& a, const Eigen::Vector3d& p) {
+    return a.rotation * p + a.translation;
+  }
 };
 
 }  // namespace spslam

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kBlock = 128;  // landmarks
 
-// Sums over one block of landmarks, for each pair (host, observing pose) in coordinates of their relative motion, so that
-// the adjoint that leads to the two poses is applied once a pair and not once an observation.
+// Sums over one block of landmarks, for each pair (host, observing pose) in coordinates of their relative
+// motion, so that the adjoint that leads to the two poses is applied once a pair and not once an observation.
 struct PairSums {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
@@ -45,7 +45,8 @@ struct PairTable {
       int& at = index[static_cast<std::size_t>(host) * poses + static_cast<std::size_t>(z.pose)];
       if (at < 0) {
         at = static_cast<int>(pairs.size());
-        const SE3 motion = problem.poses[z.pose].camera_from_world * problem.poses[host].camera_from_world.inverse();
+        const SE3 motion =
+            problem.poses[z.pose].camera_from_world * problem.poses[host].camera_from_world.inverse();
         pairs.push_back({host, z.pose, motion, motion.adjoint()});
       }
       of_observation.push_back(at);
@@ -54,7 +55,8 @@ struct PairTable {
 };
 
 // Robust weights of the image position and of the disparity, which fail independently of each other.
-Eigen::Vector3d weigh(const Eigen::Vector3d& residual, const Observation& z, const SolverOptions& options, double& cost) {
+Eigen::Vector3d weigh(const Eigen::Vector3d& residual, const Observation& z, const SolverOptions& options,
+                      double& cost) {
   const Eigen::Vector3d r = residual.cwiseProduct(z.inverse_sigma);
   const RobustValue position = robust(options.loss, options.loss_scale, r.head<2>().squaredNorm());
   const RobustValue disparity = robust(options.loss, options.loss_scale, r.z() * r.z());
@@ -89,7 +91,8 @@ class BlockAccumulator {
                        double& gradient, BlockSums& sums) const {
     const Observation& z = problem_.observations[i];
     const Pair& pair = table_.pairs[table_.of_observation[i]];
-    Linearized at = linearize(problem_.rig, pair.camera_from_host, landmark.bearing, landmark.inverse_depth, z.measured);
+    Linearized at =
+        linearize(problem_.rig, pair.camera_from_host, landmark.bearing, landmark.inverse_depth, z.measured);
     if (!at.in_front) return;
     const Vector4d basis = DisparityOffset::basis(problem_.rig, z.measured.x(), z.measured.y());
     at.residual.z() += basis.dot(problem_.disparity_offset.coefficients);
@@ -112,7 +115,8 @@ class BlockAccumulator {
     if (columns_.offset >= 0) sum.by_offset.noalias() += weighted.col(2) * basis.transpose();
     const Vector6d cross = weighted.lazyProduct(at.by_inverse_depth);
     if (pose_column >= 0) mixed.template segment<6>(pose_column) += cross.transpose();
-    if (host_column >= 0) mixed.template segment<6>(host_column) -= (pair.adjoint.transpose() * cross).transpose();
+    if (host_column >= 0)
+      mixed.template segment<6>(host_column) -= (pair.adjoint.transpose() * cross).transpose();
   }
 
   const Problem& problem_;
@@ -129,7 +133,8 @@ void add_offset_block(const Eigen::Matrix<double, 6, 4>& block, int pose, int of
 }
 
 // The relative motion camera_from_host changes by delta_camera - Ad delta_host.
-void add_pair(const PairSums& sum, const Matrix6d& adjoint, int host, int pose, int offset, NormalEquations& out) {
+void add_pair(const PairSums& sum, const Matrix6d& adjoint, int host, int pose, int offset,
+              NormalEquations& out) {
   add_offset_block(sum.by_offset, pose, offset, out);
   add_offset_block(-adjoint.transpose() * sum.by_offset, host, offset, out);
   if (pose >= 0) {
@@ -145,7 +150,8 @@ void add_pair(const PairSums& sum, const Matrix6d& adjoint, int host, int pose, 
   out.pose_hessian.block<6, 6>(host, pose) -= half.transpose();
 }
 
-void add_pose_prior(const PosePrior& prior, const Problem& problem, const PoseColumns& columns, NormalEquations& out) {
+void add_pose_prior(const PosePrior& prior, const Problem& problem, const PoseColumns& columns,
+                    NormalEquations& out) {
   const Vector6d r = (problem.poses[prior.pose].camera_from_world * prior.camera_from_world.inverse()).log();
   out.cost += r.dot(prior.information * r);
   const int column = columns.of_pose[prior.pose];
@@ -154,10 +160,12 @@ void add_pose_prior(const PosePrior& prior, const Problem& problem, const PoseCo
   out.pose_gradient.segment<6>(column) += prior.information * r;
 }
 
-void add_motion_prior(const MotionPrior& prior, const Problem& problem, const PoseColumns& columns, NormalEquations& out) {
+void add_motion_prior(const MotionPrior& prior, const Problem& problem, const PoseColumns& columns,
+                      NormalEquations& out) {
   const std::array<int, 3> poses = {prior.first, prior.second, prior.third};
-  const LinearizedMotion at = linearize(prior, problem.poses[poses[0]].camera_from_world,
-                                        problem.poses[poses[1]].camera_from_world, problem.poses[poses[2]].camera_from_world);
+  const LinearizedMotion at =
+      linearize(prior, problem.poses[poses[0]].camera_from_world, problem.poses[poses[1]].camera_from_world,
+                problem.poses[poses[2]].camera_from_world);
   out.cost += at.residual.dot(prior.information * at.residual);
   for (int a = 0; a < 3; ++a) {
     const int row = columns.of_pose[poses[a]];
@@ -170,7 +178,8 @@ void add_motion_prior(const MotionPrior& prior, const Problem& problem, const Po
   }
 }
 
-void add_offset(const DisparityOffset& offset, int column, const std::vector<BlockSums>& sums, NormalEquations& out) {
+void add_offset(const DisparityOffset& offset, int column, const std::vector<BlockSums>& sums,
+                NormalEquations& out) {
   const Vector4d error = offset.coefficients - offset.prior_mean;
   out.cost += error.dot(offset.prior_information * error);
   if (column < 0) return;

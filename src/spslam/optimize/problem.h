@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// The one estimation problem of the system: poses, landmarks as a bearing and an inverse depth in their host frame, and
-// observations (u, v, disparity) with their own variances. The tracker solves it for one pose or a short window of them,
-// local and full bundle adjustment for keyframes; they differ in what they put in (docs/ARCHITECTURE.md).
+// The one estimation problem of the system: poses, landmarks as a bearing and an inverse depth in their host
+// frame, and observations (u, v, disparity) with their own variances. The tracker solves it for one pose or a
+// short window of them, local and full bundle adjustment for keyframes; they differ in what they put in
+// (docs/ARCHITECTURE.md).
 //
-// With x = R b + w t the scaled point of bearing b and inverse depth w in the observing camera (R, t from host to it):
+// With x = R b + w t the scaled point of bearing b and inverse depth w in the observing camera (R, t from
+// host to it):
 //   u = fx x/z + cx,  v = fy y/z + cy,  disparity = fx B w / z            (the paper's equations (5) and (6))
 // which stays well defined for w -> 0, a direction without a depth, and for measured disparities below zero.
 #pragma once
@@ -40,10 +42,10 @@ struct Observation {
   double weight = 1;                                        // w_t of equation (8) for far points, else 1
 };
 
-// What a knocked or badly rectified rig adds to its disparities (px), as a polynomial over the image, x = (u - cx)/fx,
-// y = (v - cy)/fy: c0 + c1 x + c2 y + c3 x^2. A small yaw of an eye gives c0 and c3, a roll c2, a difference of the focal
-// lengths c1. SPEC, last section; Kreso and Segvic, "Improving the egomotion estimation by correcting the calibration
-// bias", 2015.
+// What a knocked or badly rectified rig adds to its disparities (px), as a polynomial over the image, x = (u
+// - cx)/fx, y = (v - cy)/fy: c0 + c1 x + c2 y + c3 x^2. A small yaw of an eye gives c0 and c3, a roll c2, a
+// difference of the focal lengths c1. SPEC, last section; Kreso and Segvic, "Improving the egomotion
+// estimation by correcting the calibration bias", 2015.
 using Vector4d = Eigen::Matrix<double, 4, 1>;
 using Matrix4d = Eigen::Matrix<double, 4, 4>;
 struct DisparityOffset {
@@ -66,8 +68,9 @@ struct PosePrior {
   Matrix6d information;
 };
 
-// A boat has inertia: the motion from `second` to `third` is that from `first` to `second`, scaled by the ratio of the
-// times, up to white noise on the acceleration (Anderson and Barfoot, 2015, in its simplest, discrete form).
+// A boat has inertia: the motion from `second` to `third` is that from `first` to `second`, scaled by the
+// ratio of the times, up to white noise on the acceleration (Anderson and Barfoot, 2015, in its simplest,
+// discrete form).
 struct MotionPrior {
   int first = 0, second = 0, third = 0;  // poses, in order of time
   double time_ratio = 1;                 // (t3 - t2) / (t2 - t1)
@@ -95,9 +98,11 @@ struct SolverOptions {
   static void fields(Self& self, Visitor& visit) {
     visit(self.iterations, {"iterations", "", "Levenberg-Marquardt steps at most", 1, 200});
     visit(self.loss, {"loss", "", "robust loss: none, huber, pseudo-huber or cauchy"});
-    visit(self.loss_scale, {"loss_scale", "sigma", "residual at which the loss leaves the parabola", 0.1, 100});
+    visit(self.loss_scale,
+          {"loss_scale", "sigma", "residual at which the loss leaves the parabola", 0.1, 100});
     visit(self.initial_damping, {"initial_damping", "", "Levenberg-Marquardt damping at the start", 0, 1e6});
-    visit(self.relative_decrease, {"relative_decrease", "", "a smaller relative decrease of the cost ends it", 0, 1});
+    visit(self.relative_decrease,
+          {"relative_decrease", "", "a smaller relative decrease of the cost ends it", 0, 1});
   }
 };
 
@@ -107,10 +112,12 @@ struct SolveSummary {
   SolveStatus status = SolveStatus::kFailed;
   int iterations = 0;
   double initial_cost = 0, final_cost = 0;
-  // Inverse of the last (undamped) Hessian of the free poses with the landmarks eliminated, 6 x 6 blocks in the order of
-  // the free poses; empty if it could not be inverted. Perturbations act from the left on camera_from_world.
+  // Inverse of the last (undamped) Hessian of the free poses with the landmarks eliminated, 6 x 6 blocks in
+  // the order of the free poses; empty if it could not be inverted. Perturbations act from the left on
+  // camera_from_world.
   Eigen::MatrixXd covariance;
-  // Information of the disparity offset with everything else eliminated, without its prior; zero if it was fixed.
+  // Information of the disparity offset with everything else eliminated, without its prior; zero if it was
+  // fixed.
   Matrix4d offset_information = Matrix4d::Zero();
 };
 
@@ -124,15 +131,17 @@ struct Linearized {
 Linearized linearize(const StereoRig& rig, const SE3& camera_from_host, const Eigen::Vector3d& bearing,
                      double inverse_depth, const Eigen::Vector3d& measured);
 
-// Residual of a motion prior and its derivatives by left perturbations of its three poses (first order in the residual).
+// Residual of a motion prior and its derivatives by left perturbations of its three poses (first order in the
+// residual).
 struct LinearizedMotion {
   Vector6d residual;
   std::array<Matrix6d, 3> by_pose;
 };
 LinearizedMotion linearize(const MotionPrior& prior, const SE3& first, const SE3& second, const SE3& third);
 
-// Minimizes the robust cost over the free poses and landmarks by Levenberg-Marquardt with the landmarks eliminated
-// (Schur complement; Triggs et al. 2000). Poses and inverse depths of `problem` are replaced by the best ones found.
+// Minimizes the robust cost over the free poses and landmarks by Levenberg-Marquardt with the landmarks
+// eliminated (Schur complement; Triggs et al. 2000). Poses and inverse depths of `problem` are replaced by
+// the best ones found.
 SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_covariance = false);
 
 // The robust cost at the present values.

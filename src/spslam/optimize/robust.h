@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Robust losses: rho(s) of a squared, normalized residual s. Weights are rho'(s) (iteratively reweighted least squares).
+// Robust losses: rho(s) of a squared, normalized residual s. Weights are rho'(s) (iteratively reweighted
+// least squares).
 #pragma once
 
 #include <cmath>
@@ -20,8 +21,8 @@ struct RobustValue {
   double weight;  // d rho / d s, 1 at 0
 };
 
-// scale: in standard deviations, where the loss leaves the parabola. Pseudo-Huber: Charbonnier et al. 1997, the paper's
-// section 3.2.2; Cauchy: Hartley and Zisserman, appendix 6.8.
+// scale: in standard deviations, where the loss leaves the parabola. Pseudo-Huber: Charbonnier et al. 1997,
+// the paper's section 3.2.2; Cauchy: Hartley and Zisserman, appendix 6.8.
 inline RobustValue robust(Loss loss, double scale, double s) {
   const double c2 = scale * scale;
   switch (loss) {

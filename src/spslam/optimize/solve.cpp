@@ -10,7 +10,8 @@
 namespace spslam {
 namespace {
 
-constexpr double kLeastInformation = 1e-12;  // m^2; below it a landmark is not observed at all and stays where it is
+constexpr double kLeastInformation =
+    1e-12;  // m^2; below it a landmark is not observed at all and stays where it is
 constexpr double kLargestDamping = 1e8;
 
 struct Step {
@@ -25,7 +26,8 @@ struct Reduced {
 };
 
 Eigen::VectorXd inverse_information(const Eigen::VectorXd& hessian, double damping) {
-  return (hessian.array() > kLeastInformation).select(1 / (hessian.array() * (1 + damping)).max(kLeastInformation), 0.0);
+  return (hessian.array() > kLeastInformation)
+      .select(1 / (hessian.array() * (1 + damping)).max(kLeastInformation), 0.0);
 }
 
 Reduced eliminate_landmarks(const NormalEquations& equations, double damping) {
@@ -36,7 +38,8 @@ Reduced eliminate_landmarks(const NormalEquations& equations, double damping) {
   const Eigen::MatrixXd scaled = inverse.cwiseSqrt().asDiagonal() * equations.mixed;
   reduced.hessian.selfadjointView<Eigen::Lower>().rankUpdate(scaled.transpose(), -1.0);
   reduced.gradient = equations.pose_gradient;
-  reduced.gradient.noalias() -= equations.mixed.transpose() * inverse.cwiseProduct(equations.landmark_gradient);
+  reduced.gradient.noalias() -=
+      equations.mixed.transpose() * inverse.cwiseProduct(equations.landmark_gradient);
   return reduced;
 }
 
@@ -70,12 +73,14 @@ void apply(const Step& step, const PoseColumns& columns, Problem& problem) {
 // The values that a step changes, to go back to.
 struct Values {
   explicit Values(const Problem& problem) : poses(problem.poses), offset(problem.disparity_offset) {
-    for (const LandmarkVariable& landmark : problem.landmarks) inverse_depths.push_back(landmark.inverse_depth);
+    for (const LandmarkVariable& landmark : problem.landmarks)
+      inverse_depths.push_back(landmark.inverse_depth);
   }
   void restore(Problem& problem) const {
     problem.poses = poses;
     problem.disparity_offset = offset;
-    for (std::size_t l = 0; l < inverse_depths.size(); ++l) problem.landmarks[l].inverse_depth = inverse_depths[l];
+    for (std::size_t l = 0; l < inverse_depths.size(); ++l)
+      problem.landmarks[l].inverse_depth = inverse_depths[l];
   }
   std::vector<PoseVariable> poses;
   DisparityOffset offset;
@@ -92,7 +97,8 @@ void find_uncertainty(const NormalEquations& equations, const PoseColumns& colum
   const int poses = columns.offset >= 0 ? columns.offset : columns.count;
   summary.covariance = covariance.topLeftCorner(poses, poses);
   if (columns.offset < 0) return;
-  summary.offset_information = covariance.bottomRightCorner<4, 4>().inverse() - problem.disparity_offset.prior_information;
+  summary.offset_information =
+      covariance.bottomRightCorner<4, 4>().inverse() - problem.disparity_offset.prior_information;
 }
 
 }  // namespace

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// What a map is made of, by value and by id. Images are shared (cv::Mat counts references) and never written
+// to.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "spslam/alignment/pyramid.h"
+#include "spslam/base/ids.h"
+#include "spslam/base/se3.h"
+#include "spslam/features/types.h"
+#include "spslam/segmentation/regions.h"
+
+namespace spslam {
+
+struct Landmark {
+  LandmarkId id;
+  KeyframeId host;           // the keyframe it was first seen from; what follows is in its left camera
+  Eigen::Vector2f pixel;     // px
+  Eigen::Vector3d bearing;   // (x, y, 1)
+  double inverse_depth = 0;  // 1/m along z; near or below 0: a direction without a depth
+  double information = 0;    // m^2, of the inverse depth
+  Region region = Region::kNear;
+  Descriptor descriptor = {};
+  std::uint8_t octave = 0;
+};
+
+// Where a landmark was seen: u, v, disparity in px, and the inverse of each one's standard deviation, 0 if
+// not measured.
+struct Sighting {
+  LandmarkId landmark;
+  Eigen::Vector3d measured = Eigen::Vector3d::Zero();
+  Eigen::Vector3d inverse_sigma = Eigen::Vector3d::Zero();
+  double weight = 1;  // w_t of equation (8) for far points, else 1
+};
+
+struct Keyframe {
+  KeyframeId id;
+  FrameId frame;
+  double timestamp = 0;  // s
+  SE3 camera_from_world;
+  AlignmentPyramid left;
+  std::vector<Sighting> sightings;  // of the landmarks it saw, its own among them
+};
+
+// What the tracker hands to the mapper when it wants a keyframe: the keyframe with all it saw, the landmarks
+// that it is the first to see, and the present estimates of the others it saw.
+struct KeyframeProposal {
+  Keyframe keyframe;
+  std::vector<Landmark> new_landmarks;
+  std::vector<Landmark> known_landmarks;
+};
+
+// What the mapper publishes for the tracker: the corrected neighbourhood of the newest keyframe. Immutable.
+struct LocalMapView {
+  std::int64_t revision = 0;  // grows with every publication
+  bool corrected = false;     // poses or landmarks differ from what the tracker proposed
+  std::vector<Keyframe> keyframes;
+  std::vector<Landmark> landmarks;
+};
+
+}  // namespace spslam

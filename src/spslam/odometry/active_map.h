@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// What the tracker keeps: the landmarks it follows, their host keyframes, and a short window of frames.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <vector>
+
+#include "spslam/map/types.h"
+#include "spslam/optimize/problem.h"
+
+namespace spslam {
+
+struct ActiveLandmark {
+  Landmark landmark;
+  // What frames that have left the window said of the inverse depth.
+  double prior_inverse_depth = 0, prior_information = 0;
+  int missed = 0;  // usable frames in a row in which it was not found
+};
+
+struct WindowFrame {
+  FrameId id;
+  double timestamp = 0;  // s
+  SE3 camera_from_world;
+  KeyframeId keyframe;  // not valid if it is none
+  std::vector<Sighting> sightings;
+};
+
+struct ActiveMap {
+  StereoRig rig;
+  DisparityOffset disparity_offset;
+  std::map<KeyframeId, Keyframe> hosts;   // of the landmarks, and of the window's keyframes
+  std::vector<ActiveLandmark> landmarks;  // ascending ids
+  std::deque<WindowFrame> window;         // ascending time
+
+  // Index of a landmark, or -1.
+  int index_of(LandmarkId id) const;
+};
+
+// Frames beyond the first `frames` of the window leave it; what they said of inverse depths stays as the
+// landmarks' prior.
+void shorten_window(ActiveMap& map, int frames, const SolverOptions& options);
+
+// Sets each landmark's information to what its prior and the window's sightings say of it.
+void update_information(ActiveMap& map, const SolverOptions& options);
+
+// Lets go of landmarks missed more than `limit` times, and of hosts that nothing needs any more.
+void forget(ActiveMap& map, int limit);
+
+}  // namespace spslam

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// The tracker's two callers of the one estimator: the motion of one frame, and a short window of frames.
+#pragma once
+
+#include "spslam/odometry/active_map.h"
+
+namespace spslam {
+
+// Where a camera is, and how well that is known.
+struct MotionEstimate {
+  SE3 camera_from_world;
+  Matrix6d covariance =
+      Matrix6d::Identity();  // of a left perturbation of camera_from_world, (m, rad), camera axes
+  double cost = 0;           // robust, at the solution
+  bool solved = false;
+};
+
+// Equations (6) to (9): the pose of one frame from its sightings, the landmarks' inverse depths being known
+// as well as their information says.
+MotionEstimate estimate_motion(const ActiveMap& map, const std::vector<Sighting>& sightings, const SE3& start,
+                               const SolverOptions& options);
+
+// Solves for the poses of all frames of the window but the first and for the inverse depths of all that they
+// see. Returns the newest frame's estimate; the map's poses and inverse depths are replaced by the solution.
+MotionEstimate refine_window(ActiveMap& map, const SolverOptions& options);
+
+}  // namespace spslam

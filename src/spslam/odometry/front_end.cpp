@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/odometry/front_end.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include "spslam/stereo/stereo.h"
+
+namespace spslam {
+namespace {
+
+std::vector<cv::Mat> levels_of(const ScalePyramid& pyramid) {
+  std::vector<cv::Mat> levels;
+  for (int i = 0; i < pyramid.size(); ++i) levels.push_back(pyramid[i]);
+  return levels;
+}
+
+std::string size_text(const cv::Mat& image) {
+  return std::to_string(image.cols) + " x " + std::to_string(image.rows);
+}
+
+}  // namespace
+
+FrontEnd::FrontEnd(const TrackerOptions& options)
+    : options_(options), left_(options.orb), right_(options.orb), segmenter_(options.segmentation) {}
+
+std::string FrontEnd::problem_of(const StereoFrame& pair, const StereoRig& rig) {
+  if (!pair.problem.empty()) return pair.problem;
+  for (const auto& [image, name] : {std::pair{&pair.left, "left"}, std::pair{&pair.right, "right"}}) {
+    if (image->empty()) return std::string(name) + " image is empty";
+    if (image->type() != CV_8UC1) return std::string(name) + " image is not 8 bit grey";
+    if (image->cols != rig.width || image->rows != rig.height)
+      return std::string(name) + " image is " + size_text(*image) + " px, the calibration is for " +
+             std::to_string(rig.width) + " x " + std::to_string(rig.height);
+  }
+  return "";
+}
+
+bool FrontEnd::needs_features() const {
+  return options_.follow.identity == Identity::kDescriptor || options_.stereo_by_descriptor;
+}
+
+Frame FrontEnd::process(const StereoFrame& pair, FrameId id) {
+  Frame frame;
+  frame.id = id;
+  frame.timestamp = pair.timestamp;
+  image_ = pair.left;
+  Features right_features;
+  tbb::parallel_invoke(
+      [&] {
+        frame.left = AlignmentPyramid(pair.left, options_.alignment.levels);
+        if (needs_features()) frame.features = left_.extract(pair.left);
+      },
+      [&] {
+        frame.right = AlignmentPyramid(pair.right, options_.alignment.levels);
+        if (needs_features()) right_features = right_.extract(pair.right);
+        if (options_.segment) frame.regions = segmenter_.update(pair.left).regions;
+      });
+  if (needs_features()) {
+    const std::vector<cv::Mat> left = levels_of(left_.pyramid()), right = levels_of(right_.pyramid());
+    frame.stereo = measure_stereo({frame.features, left, &frame.left}, {right_features, right, &frame.right},
+                                  options_.stereo);
+  }
+  return frame;
+}
+
+Features FrontEnd::new_corners(std::span<const cv::Point2f> occupied, int count) {
+  OrbRequest request;
+  request.count = count;
+  request.occupied = occupied;
+  request.radius = static_cast<float>(options_.landmarks.spacing);
+  return left_.extract(image_, request);
+}
+
+}  // namespace spslam

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/odometry/new_landmarks.h"
+
+#include <tbb/parallel_for.h>
+
+#include "spslam/odometry/follow.h"
+
+namespace spslam {
+namespace {
+
+struct Disparity {
+  double value, sigma;  // px
+};
+
+NewLandmark make_landmark(const ActiveMap& map, const Frame& frame, const Keypoint& keypoint,
+                          const Descriptor& descriptor, const Disparity& disparity) {
+  NewLandmark out;
+  Landmark& landmark = out.landmark;
+  landmark.pixel = {keypoint.x, keypoint.y};
+  landmark.bearing = map.rig.bearing(keypoint.x, keypoint.y);
+  landmark.octave = keypoint.octave;
+  landmark.descriptor = descriptor;
+  landmark.region = frame.regions.at(keypoint.x, keypoint.y);
+  const double scale = map.rig.disparity_per_inverse_depth();
+  landmark.inverse_depth =
+      (disparity.value - map.disparity_offset.at(map.rig, keypoint.x, keypoint.y)) / scale;
+  landmark.information = scale * scale / (disparity.sigma * disparity.sigma);
+  out.sighting.measured = {keypoint.x, keypoint.y, disparity.value};
+  out.sighting.inverse_sigma = {0, 0, 1 / disparity.sigma};
+  return out;
+}
+
+std::optional<Disparity> measure(const Frame& frame, const Keypoint& keypoint,
+                                 const TrackerOptions& options) {
+  const Eigen::Vector2f at(keypoint.x, keypoint.y);
+  const auto start =
+      search_row(frame.left, at, frame.right, options.alignment.patch_radius, options.row_search);
+  if (!start) return std::nullopt;
+  const auto disparity = align_disparity(frame, at, *start, options);
+  if (!disparity) return std::nullopt;
+  return Disparity{*disparity, options.follow.disparity_sigma};
+}
+
+// The frame's features that are not near a sighting, at most `count`, with the stereo stage's disparities.
+std::vector<NewLandmark> from_stereo_stage(const ActiveMap& map, const Frame& frame,
+                                           const std::vector<Sighting>& sightings, int count,
+                                           const TrackerOptions& options) {
+  cv::Mat taken(map.rig.height, map.rig.width, CV_8UC1, cv::Scalar(0));
+  const auto mark = [&](double x, double y) {
+    const auto r = static_cast<int>(options.landmarks.spacing);
+    const cv::Rect box(static_cast<int>(x) - r, static_cast<int>(y) - r, 2 * r + 1, 2 * r + 1);
+    taken(box & cv::Rect(0, 0, taken.cols, taken.rows)).setTo(255);
+  };
+  for (const Sighting& sighting : sightings) mark(sighting.measured.x(), sighting.measured.y());
+  std::vector<NewLandmark> found;
+  for (std::size_t i = 0; i < frame.stereo.size() && static_cast<int>(found.size()) < count; ++i) {
+    const Keypoint& k = frame.features.keypoints[i];
+    const auto x = static_cast<int>(std::lround(k.x)), y = static_cast<int>(std::lround(k.y));
+    if (!frame.stereo[i].ok() || x < 0 || y < 0 || x >= taken.cols || y >= taken.rows ||
+        taken.at<unsigned char>(y, x))
+      continue;
+    found.push_back(make_landmark(map, frame, k, frame.features.descriptors[i],
+                                  {frame.stereo[i].disparity, frame.stereo[i].sigma}));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<NewLandmark> find_new_landmarks(const ActiveMap& map, const Frame& frame,
+                                            const std::vector<Sighting>& sightings, FrontEnd& front_end,
+                                            const TrackerOptions& options) {
+  const int count = options.landmarks.count - static_cast<int>(sightings.size());
+  if (count <= 0) return {};
+  if (options.stereo_by_descriptor) return from_stereo_stage(map, frame, sightings, count, options);
+  std::vector<cv::Point2f> occupied;
+  for (const Sighting& s : sightings)
+    occupied.emplace_back(static_cast<float>(s.measured.x()), static_cast<float>(s.measured.y()));
+  const Features corners = front_end.new_corners(occupied, count);
+  std::vector<std::optional<Disparity>> disparities(corners.keypoints.size());
+  tbb::parallel_for(std::size_t{0}, disparities.size(), [&](std::size_t i) {
+    if (corners.keypoints[i].octave <= options.landmarks.max_octave)
+      disparities[i] = measure(frame, corners.keypoints[i], options);
+  });
+  std::vector<NewLandmark> found;
+  for (std::size_t i = 0; i < disparities.size(); ++i)
+    if (disparities[i])
+      found.push_back(
+          make_landmark(map, frame, corners.keypoints[i], corners.descriptors[i], *disparities[i]));
+  return found;
+}
+
+}  // namespace spslam

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// Visual odometry, the first of the three threads: a pose for each frame, from the landmarks it follows and a
+// short window of frames. The window owns the present, the map the past: a keyframe is handed to the mapper
+// when it leaves the window.
+#pragma once
+
+#include "spslam/odometry/active_map.h"
+#include "spslam/odometry/far_points.h"
+#include "spslam/odometry/frame_problem.h"
+#include "spslam/odometry/front_end.h"
+#include "spslam/odometry/motion_model.h"
+#include "spslam/odometry/stage_timer.h"
+#include "spslam/odometry/track_result.h"
+
+namespace spslam {
+
+// A frame's pose relative to a keyframe of the map, so that corrections of the map move it too.
+struct FramePose {
+  FrameId frame;
+  double timestamp = 0;  // s
+  TrackStatus status = TrackStatus::kTracking;
+  KeyframeId reference;
+  SE3 camera_from_reference;
+};
+
+struct TrackerOutput {
+  TrackResult result;
+  std::vector<KeyframeProposal> proposals;  // keyframes that left the window
+  std::vector<FramePose> settled;           // frames that odometry will not change any more
+};
+
+class Tracker {
+ public:
+  // Throws OptionError or InputError for options or a rig that are not usable.
+  Tracker(const StereoRig& rig, const TrackerOptions& options);
+
+  // Frames in order of time. A pair that cannot be used gets a status, not an exception.
+  TrackerOutput track(const StereoFrame& pair);
+  // Takes over what the mapper has corrected since: poses and inverse depths of what is still followed.
+  void adopt(const LocalMapView& view);
+  // Empties the window, at the end of a run.
+  TrackerOutput finish();
+
+ private:
+  // What became of a frame, kept until it settles.
+  struct Unsettled {
+    FrameId frame;
+    double timestamp;
+    TrackStatus status;
+    SE3 camera_from_world;  // of frames that are not in the window
+    bool in_window;
+  };
+  struct SeenByKeyframe {
+    LandmarkId landmark;
+    Eigen::Vector2f position;
+  };
+
+  bool measure_pose(const Frame& frame, TrackResult& result, StageTimer& timer);
+  std::vector<Sighting> find_landmarks(const Frame& frame, SE3& predicted, TrackResult& result);
+  bool is_sound(const MotionEstimate& motion, const std::vector<Sighting>& sightings,
+                TrackResult& result) const;
+  void begin(const Frame& frame, TrackResult& result);
+  void coast(const std::string& reason, TrackResult& result);
+  void finish_frame(TrackerOutput& out);
+
+  KeyframeEvidence evidence(const WindowFrame& present) const;
+  void make_keyframe(const Frame& frame, WindowFrame& present);
+  void settle(std::size_t frames_kept, TrackerOutput& out);
+  KeyframeProposal propose(const WindowFrame& frame);
+  void let_go();
+
+  TrackerOptions options_;
+  FrontEnd front_end_;
+  FarPoints far_points_;
+  KeyframePolicy policy_;
+  MotionModel motion_;
+  ActiveMap map_;
+  TrackStatus status_ = TrackStatus::kInitializing;
+  Matrix6d motion_covariance_ =
+      Matrix6d::Identity() * 1e-12;  // of the newest frame against the landmarks it saw
+  std::int64_t frames_ = 0, keyframes_ = 0, landmarks_ = 0;  // ids given
+  int frames_since_keyframe_ = 0, tracked_before_ = 0;
+  SE3 keyframe_pose_;                             // camera_from_world of the last keyframe when it was made
+  std::vector<SeenByKeyframe> seen_by_keyframe_;  // ascending
+  std::map<LandmarkId, Landmark> retired_;        // no longer followed, but their host is still in the window
+  std::deque<Unsettled> unsettled_;
+  KeyframeId settled_reference_;  // the last keyframe handed over
+  SE3 settled_reference_pose_;
+};
+
+}  // namespace spslam

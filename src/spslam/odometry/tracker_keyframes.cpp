@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// The tracker's keyframes: when one is made, what it brings, and how it is handed over.
+
+#include "spslam/odometry/new_landmarks.h"
+#include "spslam/odometry/tracker.h"
+
+namespace spslam {
+namespace {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+KeyframeEvidence Tracker::evidence(const WindowFrame& present) const {
+  KeyframeEvidence out;
+  out.frames_since_keyframe = frames_since_keyframe_;
+  out.tracked = static_cast<int>(present.sightings.size());
+  out.tracked_before = tracked_before_;
+  out.entropy = differential_entropy(motion_covariance_);
+  out.rotation =
+      so3_log(present.camera_from_world.rotation * keyframe_pose_.rotation.transpose()).norm() * 180 / M_PI;
+  std::vector<double> motions;
+  for (const Sighting& s : present.sightings) {
+    const auto it = std::lower_bound(seen_by_keyframe_.begin(), seen_by_keyframe_.end(), s.landmark,
+                                     [](const SeenByKeyframe& a, LandmarkId b) { return a.landmark < b; });
+    if (it != seen_by_keyframe_.end() && it->landmark == s.landmark)
+      motions.push_back((s.measured.head<2>().cast<float>() - it->position).norm());
+  }
+  out.share_of_keyframe = seen_by_keyframe_.empty() ? 1
+                                                    : static_cast<double>(motions.size()) /
+                                                          static_cast<double>(seen_by_keyframe_.size());
+  out.parallax = median(std::move(motions));
+  return out;
+}
+
+void Tracker::make_keyframe(const Frame& frame, WindowFrame& present) {
+  present.keyframe = {keyframes_++};
+  map_.hosts[present.keyframe] = {present.keyframe,          present.id, present.timestamp,
+                                  present.camera_from_world, frame.left, {}};
+  for (NewLandmark& fresh : find_new_landmarks(map_, frame, present.sightings, front_end_, options_)) {
+    fresh.landmark.id = fresh.sighting.landmark = {landmarks_++};
+    fresh.landmark.host = present.keyframe;
+    present.sightings.push_back(fresh.sighting);
+    map_.landmarks.push_back({fresh.landmark, fresh.landmark.inverse_depth, 0, 0});
+  }
+  frames_since_keyframe_ = 0;
+  keyframe_pose_ = present.camera_from_world;
+  seen_by_keyframe_.clear();
+  for (const Sighting& s : present.sightings)
+    seen_by_keyframe_.push_back({s.landmark, s.measured.head<2>().cast<float>()});
+}
+
+// Landmarks not found in the newest frame are missed; those missed too often retire, to be handed over with
+// their host.
+void Tracker::let_go() {
+  for (ActiveLandmark& active : map_.landmarks) ++active.missed;
+  for (const Sighting& s : map_.window.back().sightings)
+    if (const int i = map_.index_of(s.landmark); i >= 0) map_.landmarks[i].missed = 0;
+  for (const ActiveLandmark& active : map_.landmarks)
+    if (active.missed > options_.follow.max_missed) retired_[active.landmark.id] = active.landmark;
+  forget(map_, options_.follow.max_missed);
+}
+
+void Tracker::settle(std::size_t frames_kept, TrackerOutput& out) {
+  while (!unsettled_.empty() && (!unsettled_.front().in_window || map_.window.size() > frames_kept)) {
+    const Unsettled& oldest = unsettled_.front();
+    SE3 pose = oldest.camera_from_world;
+    if (oldest.in_window) {
+      const WindowFrame& frame = map_.window.front();
+      pose = frame.camera_from_world;
+      if (frame.keyframe.valid()) {
+        settled_reference_ = frame.keyframe;
+        settled_reference_pose_ = pose;
+        out.proposals.push_back(propose(frame));
+      }
+      shorten_window(map_, static_cast<int>(map_.window.size()) - 1, options_.window);
+    }
+    out.settled.push_back({oldest.frame, oldest.timestamp, oldest.status, settled_reference_,
+                           pose * settled_reference_pose_.inverse()});
+    unsettled_.pop_front();
+  }
+}
+
+KeyframeProposal Tracker::propose(const WindowFrame& frame) {
+  KeyframeProposal proposal;
+  proposal.keyframe = map_.hosts.at(frame.keyframe);
+  proposal.keyframe.sightings = frame.sightings;
+  for (const Sighting& s : frame.sightings) {
+    const int i = map_.index_of(s.landmark);
+    const auto retired = retired_.find(s.landmark);
+    if (i < 0 && retired == retired_.end()) continue;
+    const Landmark& landmark = i >= 0 ? map_.landmarks[i].landmark : retired->second;
+    (landmark.host == frame.keyframe ? proposal.new_landmarks : proposal.known_landmarks).push_back(landmark);
+  }
+  std::erase_if(retired_, [&](const auto& entry) { return entry.second.host <= frame.keyframe; });
+  return proposal;
+}
+
+TrackerOutput Tracker::finish() {
+  TrackerOutput out;
+  settle(0, out);
+  return out;
+}
+
+void Tracker::adopt(const LocalMapView& view) {
+  if (!view.corrected) return;
+  // The window moves rigidly with the last keyframe handed over, and everything that hangs on it.
+  SE3 world_from_old;
+  for (const Keyframe& keyframe : view.keyframes) {
+    if (keyframe.id == settled_reference_) {
+      world_from_old = keyframe.camera_from_world.inverse() * settled_reference_pose_;
+      settled_reference_pose_ = keyframe.camera_from_world;
+    }
+    if (const auto host = map_.hosts.find(keyframe.id); host != map_.hosts.end())
+      host->second.camera_from_world = keyframe.camera_from_world;
+  }
+  const SE3 old_from_world = world_from_old.inverse();
+  for (WindowFrame& frame : map_.window) {
+    frame.camera_from_world = frame.camera_from_world * old_from_world;
+    if (frame.keyframe.valid()) map_.hosts.at(frame.keyframe).camera_from_world = frame.camera_from_world;
+  }
+  for (Unsettled& frame : unsettled_) frame.camera_from_world = frame.camera_from_world * old_from_world;
+  keyframe_pose_ = keyframe_pose_ * old_from_world;
+  motion_.correct(motion_.last_pose() * old_from_world);
+  for (const Landmark& landmark : view.landmarks)
+    if (const int i = map_.index_of(landmark.id); i >= 0) {
+      ActiveLandmark& active = map_.landmarks[i];
+      active.landmark.inverse_depth = landmark.inverse_depth;
+      active.prior_inverse_depth = landmark.inverse_depth;
+    }
+}
+
+}  // namespace spslam

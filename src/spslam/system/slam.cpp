@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/system/slam.h"
+
+#include <mutex>
+#include <thread>
+
+#include "spslam/odometry/tracker.h"
+#include "spslam/system/bounded_queue.h"
+
+namespace spslam {
+
+struct Slam::Stages {
+  Stages(const StereoRig& rig, const SlamOptions& slam_options)
+      : options(slam_options), tracker(rig, options.tracker), mapper(options.mapper) {
+    if (options.threads == Threads::kParallel) mapping = std::thread([this] { map_keyframes(); });
+  }
+  ~Stages() { stop(); }
+
+  void stop() {
+    proposals.close();
+    if (mapping.joinable()) mapping.join();
+  }
+  // The mapper's thread.
+  void map_keyframes() {
+    while (auto proposal = proposals.pop()) insert(std::move(*proposal));
+  }
+  void insert(KeyframeProposal proposal) {
+    const std::scoped_lock lock(mutex);
+    view = mapper.insert(std::move(proposal));
+  }
+  void take(TrackerOutput& output) {
+    {
+      const std::scoped_lock lock(mutex);
+      settled.insert(settled.end(), output.settled.begin(), output.settled.end());
+    }
+    for (KeyframeProposal& proposal : output.proposals) {
+      if (options.threads == Threads::kSequential)
+        insert(std::move(proposal));
+      else
+        proposals.push(std::move(proposal));
+    }
+  }
+
+  SlamOptions options;
+  Tracker tracker;
+  bool has_frame = false;
+  double last_timestamp = 0;
+  bool finished = false;
+  BoundedQueue<KeyframeProposal> proposals{8};
+  mutable std::mutex mutex;  // guards what follows
+  LocalMapper mapper;
+  LocalMapView view;
+  std::vector<FramePose> settled;
+  std::thread mapping;  // last: it uses all of the above
+};
+
+Slam::Slam(const StereoRig& rig, const SlamOptions& options) {
+  check_options(options);
+  stages_ = std::make_unique<Stages>(rig, options);
+}
+
+Slam::~Slam() = default;
+
+TrackResult Slam::track(const StereoFrame& pair) {
+  if (stages_->has_frame && !(pair.timestamp > stages_->last_timestamp)) {
+    TrackResult refused;
+    refused.timestamp = pair.timestamp;
+    refused.reason =
+        "time " + std::to_string(pair.timestamp) + " s is not after the last frame's; the frame is left out";
+    return refused;
+  }
+  stages_->has_frame = true;
+  stages_->last_timestamp = pair.timestamp;
+  LocalMapView view;
+  {
+    const std::scoped_lock lock(stages_->mutex);
+    std::swap(view, stages_->view);
+  }
+  if (view.revision > 0) stages_->tracker.adopt(view);
+  TrackerOutput output = stages_->tracker.track(pair);
+  stages_->take(output);
+  return output.result;
+}
+
+void Slam::finish() {
+  if (std::exchange(stages_->finished, true)) return;
+  TrackerOutput rest = stages_->tracker.finish();
+  stages_->take(rest);
+  stages_->stop();
+}
+
+std::vector<TrajectoryPose> Slam::trajectory() const {
+  const std::scoped_lock lock(stages_->mutex);
+  std::vector<TrajectoryPose> out;
+  for (const FramePose& frame : stages_->settled)
+    if (const Keyframe* reference = stages_->mapper.map().find(frame.reference))
+      out.push_back({frame.frame, frame.timestamp, frame.status,
+                     (frame.camera_from_reference * reference->camera_from_world).inverse()});
+  return out;
+}
+
+std::vector<KeyframeInfo> Slam::keyframes() const {
+  const std::scoped_lock lock(stages_->mutex);
+  std::vector<KeyframeInfo> out;
+  for (const auto& [id, keyframe] : stages_->mapper.map().keyframes())
+    out.push_back({id, keyframe.frame, keyframe.timestamp, keyframe.camera_from_world.inverse(),
+                   static_cast<int>(keyframe.sightings.size())});
+  return out;
+}
+
+std::size_t Slam::landmark_count() const {
+  const std::scoped_lock lock(stages_->mutex);
+  return stages_->mapper.map().landmarks().size();
+}
+
+}  // namespace spslam

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// The whole system behind one function: slam.track(timestamp, left, right).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "spslam/camera/stereo_frame.h"
+#include "spslam/camera/stereo_rig.h"
+#include "spslam/map/map.h"
+#include "spslam/odometry/track_result.h"
+#include "spslam/system/slam_options.h"
+
+namespace spslam {
+
+// A frame's pose as it is known now, after all corrections so far. One for each frame given since the first
+// usable one.
+struct TrajectoryPose {
+  FrameId frame;
+  double timestamp = 0;  // s
+  TrackStatus status = TrackStatus::kTracking;
+  SE3 world_from_camera;
+};
+
+// A keyframe as the results list it.
+struct KeyframeInfo {
+  KeyframeId id;
+  FrameId frame;
+  double timestamp = 0;
+  SE3 world_from_camera;
+  int sightings = 0;
+};
+
+class Slam {
+ public:
+  // Throws InputError for a rig, OptionError for options that are not usable.
+  Slam(const StereoRig& rig, const SlamOptions& options = {});
+  ~Slam();
+  Slam(const Slam&) = delete;
+  Slam& operator=(const Slam&) = delete;
+
+  // Frames in order of time, from one thread. A pair that cannot be used (wrong size, no image, a time not
+  // after the last one's) gets a status and a reason, not an exception. The result's pose is what is known at
+  // this moment; later corrections change the past, which trajectory() has.
+  TrackResult track(const StereoFrame& pair);
+  TrackResult track(double timestamp, const cv::Mat& left, const cv::Mat& right) {
+    return track({timestamp, left, right, ""});
+  }
+
+  // Ends the input: everything waiting is worked off. Called by the destructor too; track() must not be
+  // called after it.
+  void finish();
+  // The corrected past; whole only after finish().
+  std::vector<TrajectoryPose> trajectory() const;
+  std::vector<KeyframeInfo> keyframes() const;
+  std::size_t landmark_count() const;
+
+ private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace spslam

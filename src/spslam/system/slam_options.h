@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// Every option of the system, its presets, and how they are read and written.
+#pragma once
+
+#include <filesystem>
+
+#include "spslam/mapping/local_mapper.h"
+#include "spslam/odometry/options.h"
+
+namespace spslam {
+
+// Whether the stages run in threads of their own, or in order in the caller's thread with the same bits on
+// every run.
+enum class Threads { kParallel, kSequential };
+
+inline std::span<const char* const> option_names(Threads) {
+  static constexpr const char* names[] = {"parallel", "sequential"};
+  return names;
+}
+
+struct SlamOptions {
+  Threads threads = Threads::kParallel;
+  TrackerOptions tracker;
+  LocalMapperOptions mapper;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit(self.threads, {"threads", "", "parallel, or sequential for the same bits on every run"});
+    visit.group("tracker", self.tracker);
+    visit.group("mapper", self.mapper);
+  }
+};
+
+// sp-slam: what measures best. paper: the paper as written, nothing more. baseline: the feature SLAM that the
+// paper starts from.
+enum class Preset { kSpSlam, kPaper, kBaseline };
+
+inline std::span<const char* const> option_names(Preset) {
+  static constexpr const char* names[] = {"sp-slam", "paper", "baseline"};
+  return names;
+}
+
+SlamOptions preset_options(Preset preset);
+
+// Sets what a YAML text says, nested or with dotted keys. Throws OptionError: "name: ..." for text that is
+// not YAML, for an unknown key (with the nearest known one), for a value that does not fit.
+void apply_yaml(SlamOptions& options, const std::string& text, const std::string& name);
+void apply_yaml_file(SlamOptions& options, const std::filesystem::path& path);
+
+// All options as YAML, each with its unit and meaning as a comment; apply_yaml() reads it back to the same
+// options.
+std::string to_yaml(const SlamOptions& options);
+
+}  // namespace spslam
