@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// What a user of the installed library writes: a rig, a motion, an option set by name, an error that is caught.
+// What a user of the installed library writes: a rig, a motion, an option set by name, an error that is
+// caught.
 
 #include <spslam/base/se3.h>
 #include <spslam/camera/stereo_rig.h>
