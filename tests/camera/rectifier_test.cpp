@@ -171,6 +171,21 @@ TEST(Rectifier, RealPair) {
   EXPECT_GT(raw, 3.0) << "the raw rows do not correspond";
 }
 
+TEST(Rectifier, LeavesARectifiedPairAlone) {
+  RawStereo raw = euroc();
+  raw.left.distortion = {0, 0, 0, 0};
+  raw.right = raw.left;
+  raw.right_from_left = {Eigen::Matrix3d::Identity(), {-0.11, 0, 0}};
+  const cv::Mat image = spots({{100.3, 200.4}, {500, 300}}, raw.left);
+  const Rectifier rectifier(raw);
+  EXPECT_EQ(cv::norm(image, rectifier.rectify_right(image), cv::NORM_INF), 0);
+  EXPECT_FALSE(rectifier.resamples());
+  EXPECT_EQ(rectifier.rig().fy, raw.left.fy);
+  EXPECT_EQ(rectifier.rig().baseline, 0.11);
+  raw.right_from_left.rotation = so3_exp({0, 1e-3, 0});
+  EXPECT_GT(cv::norm(image, Rectifier(raw).rectify_right(image), cv::NORM_INF), 0);
+}
+
 TEST(Rectifier, RefusesImpossibleRigs) {
   RawStereo raw = euroc();
   raw.right_from_left.translation = -raw.right_from_left.translation;

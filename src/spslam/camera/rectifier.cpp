@@ -3,6 +3,8 @@
 
 #include "spslam/camera/rectifier.h"
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -52,6 +54,22 @@ cv::Mat intrinsic_matrix(const RawCamera& camera) {
 cv::Mat to_cv(const Eigen::Matrix3d& m) {
   return (cv::Mat_<double>(3, 3) << m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1),
           m(2, 2));
+}
+
+// Whether the pair is rectified already, to a thousandth of a pixel: resampling it would only blur.
+bool is_rectified(const RawStereo& raw) {
+  const auto zero = [](double k) { return k == 0; };
+  const auto undistorted = [&](const RawCamera& camera) {
+    return std::all_of(camera.distortion.begin(), camera.distortion.end(), zero) &&
+           (camera.lens != LensModel::kEquidistant);  // whose zero coefficients are a fisheye all the same
+  };
+  const RawCamera &a = raw.left, &b = raw.right;
+  const double intrinsics =
+      std::max({std::abs(a.fx - b.fx), std::abs(a.fy - b.fy), std::abs(a.cx - b.cx), std::abs(a.cy - b.cy)});
+  const Eigen::Vector3d& t = raw.right_from_left.translation;
+  const double turned = so3_log(raw.right_from_left.rotation).norm() * a.fx;
+  const double skew = std::hypot(t.y(), t.z()) / std::abs(t.x()) * a.fx;
+  return undistorted(a) && undistorted(b) && std::max({intrinsics, turned, skew}) < 1e-3;
 }
 
 struct Rectification {
@@ -122,6 +140,12 @@ void RawStereo::check() const {
 
 Rectifier::Rectifier(const RawStereo& raw) {
   raw.check();
+  if (is_rectified(raw)) {
+    const RawCamera& c = raw.left;
+    rig_ = {c.fx, c.fy, c.cx, c.cy, -raw.right_from_left.translation.x(), c.width, c.height};
+    rig_.check();
+    return;
+  }
   try {
     const Rectification r = stereo_rectify(raw);
     rig_ = rig_of(r, {raw.left.width, raw.left.height});
@@ -141,6 +165,7 @@ cv::Mat Rectifier::rectify(const cv::Mat& raw, const Maps& maps) const {
     throw InputError("rectification takes grey 8 bit images of " + std::to_string(rig_.width) + " x " +
                      std::to_string(rig_.height) + " px, the calibrated size; got " +
                      std::to_string(raw.cols) + " x " + std::to_string(raw.rows) + " px");
+  if (maps.pixel.empty()) return raw;
   cv::Mat rectified;
   cv::remap(raw, rectified, maps.pixel, maps.fraction, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return rectified;

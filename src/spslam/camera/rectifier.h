@@ -33,24 +33,24 @@ struct RawStereo {
   RawCamera left, right;
   SE3 right_from_left;  // m
 
-  // Throws InputError unless both cameras are usable, of one image size, and the right one is at +x of the
-  // left one.
+  // Throws InputError unless both cameras are usable, of one image size, the right one at +x of the left one.
   void check() const;
 };
 
 // Immutable once built: rectify() may be called from several threads.
 class Rectifier {
  public:
-  // Throws InputError if the calibration cannot be rectified. Only pixels that both eyes see stay (alpha =
-  // 0).
+  // Throws InputError if the calibration cannot be rectified. Images are cut to what both eyes see (alpha 0).
   explicit Rectifier(const RawStereo& raw);
 
   const StereoRig& rig() const { return rig_; }
+  // False if the pair is rectified already and images pass as they are.
+  bool resamples() const { return !left_.pixel.empty(); }
   // Turns points of the rectified left camera into the raw left camera (a pure rotation).
   const SE3& raw_left_from_rectified() const { return raw_left_from_rectified_; }
 
-  // Grey 8 bit images of the raw size (anything else throws InputError) to images of the rig's size.
-  // Bilinear.
+  // Grey 8 bit images of the raw size (anything else throws InputError) to images of the rig's size,
+  // bilinear. A pair that is rectified already passes unchanged; the result then shares its pixels.
   cv::Mat rectify_left(const cv::Mat& raw) const { return rectify(raw, left_); }
   cv::Mat rectify_right(const cv::Mat& raw) const { return rectify(raw, right_); }
 

@@ -105,9 +105,9 @@ class ImageDataset final : public Dataset {
     std::string text = sequence_.folder.string() + " (" +
                        option_names(sequence_.format)[static_cast<int>(sequence_.format)] +
                        "): " + std::to_string(size()) + " pairs of " + size_text(image_size_) +
-                       (rectifier_ ? ", rectified on loading" : "") + ", " + fixed_text(duration, 1) +
-                       " s, fx " + fixed_text(rig_.fx, 1) + " px, baseline " + fixed_text(rig_.baseline, 4) +
-                       " m";
+                       (rectifier_ && rectifier_->resamples() ? ", rectified on loading" : "") + ", " +
+                       fixed_text(duration, 1) + " s, fx " + fixed_text(rig_.fx, 1) + " px, baseline " +
+                       fixed_text(rig_.baseline, 4) + " m";
     if (sequence_.ground_truth)
       text += ", ground truth of " + std::to_string(sequence_.ground_truth->size()) +
               (sequence_.planar_ground_truth ? " planar poses" : " poses");
