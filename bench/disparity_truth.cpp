@@ -143,7 +143,8 @@ TrueDisparity true_disparity(const cv::Mat& disparity, float x, float y, float m
   if ((around & cv::Rect({}, disparity.size())) != around) return truth;
   if (!cv::checkRange(disparity(square(rule.edge_radius)))) return truth;  // water
   truth.known = true;
-  truth.edge = !(departure_from_plane(disparity(around), rule.plane_radius) <= rule.edge_range);
+  const double range = std::max(rule.edge_range, rule.edge_share * disparity.at<float>(centre));
+  truth.edge = !(departure_from_plane(disparity(around), rule.plane_radius) <= range);
   if (!truth.edge || std::isnan(measured)) {
     cv::Mat between;
     cv::getRectSubPix(disparity, cv::Size(1, 1), cv::Point2f(x, y), between);

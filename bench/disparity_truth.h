@@ -36,7 +36,7 @@ struct TrueDisparity {
 // `measured` (NaN: that of the pixel itself); elsewhere it is interpolated at the pixel.
 struct EdgeRule {
   int plane_radius = 12, edge_radius = 7;
-  double edge_range = 0.25;
+  double edge_range = 0.1, edge_share = 0.05;
 };
 TrueDisparity true_disparity(const cv::Mat& disparity, float x, float y, float measured,
                              const EdgeRule& rule);

@@ -61,7 +61,9 @@ struct StereoOptions {
   double align_max_move = 3.0;
   double align_max_return = 0.3;
   double align_max_row_offset = 2.0;
-  AlignmentOptions align{.patch_radius = 7, .convergence = 0.02};
+  double align_near_disparity = 3.0;
+  int align_near_radius = 5;
+  AlignmentOptions align{.patch_radius = 7, .iterations = 8, .convergence = 0.02};
   double coarse_sigma = 0.6;
   DisparityNoise block_noise{0.06, 0.09};
   DisparityNoise align_noise{0.03, 1.8};
@@ -111,6 +113,12 @@ struct StereoOptions {
           {"align_max_return", "px", "farthest from the left point that the way back may end", 0.01, 5});
     visit(self.align_max_row_offset,
           {"align_max_row_offset", "px", "largest row offset of an aligned point", 0.1, 10});
+    visit(self.align_near_disparity,
+          {"align_near_disparity", "px", "above it a point is near: a patch there shows more than one depth",
+           0, 1000});
+    visit(self.align_near_radius,
+          {"align_near_radius", "px",
+           "half width of the patch of a near point; align.patch_radius is that of the others", 2, 7});
     visit.group("align", self.align);
     visit(self.coarse_sigma,
           {"coarse_sigma", "px", "deviation of a disparity taken from the keypoints alone", 0.01, 10});

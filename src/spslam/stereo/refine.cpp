@@ -14,6 +14,8 @@
 namespace spslam {
 namespace {
 
+constexpr float kSameStart = 1.0F;  // px: alignment from a start this near ends in the same place
+
 struct Aligner {
   const AlignmentPyramid& left;
   const AlignmentPyramid& right;
@@ -22,14 +24,16 @@ struct Aligner {
   // known: the start is a measurement of this very point, so that only the fine levels are searched and the
   // result may not go far; otherwise it is a guess.
   StereoMeasurement align(const Keypoint& k, const StereoMeasurement& start, bool known) const {
-    StereoMeasurement m;
+    StereoMeasurement m = start;  // what a point that does not align keeps
     m.status = StereoStatus::kNotAligned;
     const Eigen::Vector2f point(k.x, k.y), guess(k.x - start.disparity, k.y + start.row_offset);
+    AlignmentOptions patch = options.align;
+    if (start.disparity > options.align_near_disparity) patch.patch_radius = options.align_near_radius;
     const Eigen::Matrix2f no_warp = Eigen::Matrix2f::Identity();
     const int first = known ? options.align_first_level : options.align_unmatched_level;
-    const Alignment there = align_patch(left, point, right, guess, no_warp, options.align, first);
+    const Alignment there = align_patch(left, point, right, guess, no_warp, patch, first);
     if (!there.ok()) return m;
-    const Alignment back = align_patch(right, there.position, left, point, no_warp, options.align, 0);
+    const Alignment back = align_patch(right, there.position, left, point, no_warp, patch, 0);
     if (!back.ok() || (back.position - point).norm() > static_cast<float>(options.align_max_return)) return m;
     if (known && (there.position - guess).norm() > static_cast<float>(options.align_max_move)) return m;
     // The mean of the way there and the way back: each one's error from its own template's noise is halved.
@@ -71,6 +75,9 @@ void align_stereo(std::span<const Keypoint> keypoints, const AlignmentPyramid& l
   align_if([&](std::size_t i) {
     if (measurements[i].ok()) return;
     const StereoMeasurement guess = neighbours.guess(keypoints[i]);
+    const bool tried = measurements[i].status == StereoStatus::kNotAligned &&
+                       std::abs(measurements[i].disparity - guess.disparity) < kSameStart;
+    if (tried) return;
     const StereoMeasurement found = aligner.align(keypoints[i], guess, false);
     if (found.ok()) measurements[i] = found;
   });
