@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// The tracker's contract on a rendered plane; whole sequences are in tests/system.
+
+#include "spslam/odometry/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "odometry/plane_scene.h"
+
+namespace spslam {
+namespace {
+
+TrackerOptions small_options() {
+  TrackerOptions options;
+  options.segment = false;
+  options.landmarks.count = 300;
+  options.keyframe.min_tracked = 20;
+  options.window_frames = 5;
+  return options;
+}
+
+// Sideways and a little forward, turning, at 10 Hz.
+SE3 pose_at(int i) {
+  return SE3{so3_exp({0.002 * i, -0.003 * i, 0.004 * i}), {-0.02 * i, 0.005 * i, -0.03 * i}};
+}
+
+double position_error(const TrackResult& result, int i) {
+  return (result.world_from_camera.translation - pose_at(i).inverse().translation).norm();
+}
+
+StereoFrame broken(double timestamp) {
+  return {timestamp, {}, {}, "left image truncated"};
+}
+
+TEST(Tracker, FollowsARenderedPlane) {
+  const test::PlaneScene scene(11);
+  Tracker tracker(scene.rig(), small_options());
+  for (int i = 0; i < 12; ++i) {
+    const TrackResult result = tracker.track(scene.pair(0.1 * i, pose_at(i))).result;
+    EXPECT_EQ(result.status, TrackStatus::kTracking) << result.reason;
+    EXPECT_EQ(result.frame.value, i);
+    EXPECT_LT(position_error(result, i), 0.01) << i;
+    EXPECT_EQ(result.keyframe_id.valid(), i == 0 || result.keyframe.insert());
+  }
+}
+
+TEST(Tracker, EveryFrameSettlesOnceAndInOrder) {
+  const test::PlaneScene scene(12);
+  Tracker tracker(scene.rig(), small_options());
+  std::vector<std::int64_t> settled;
+  std::size_t keyframes = 0, proposals = 0;
+  const auto note = [&](const TrackerOutput& out) {
+    for (const FramePose& pose : out.settled) settled.push_back(pose.frame.value);
+    proposals += out.proposals.size();
+    keyframes += out.result.keyframe_id.valid();
+  };
+  for (int i = 0; i < 12; ++i)
+    note(tracker.track(i == 6 ? broken(0.1 * i) : scene.pair(0.1 * i, pose_at(i))));
+  note(tracker.finish());
+  ASSERT_EQ(settled.size(), 12U);
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(settled[i], i);
+  EXPECT_EQ(proposals, keyframes);
+}
+
+TEST(Tracker, CoastsOverABadPairAndIsLostAfterTooLong) {
+  const test::PlaneScene scene(13);
+  const TrackerOptions options = small_options();
+  Tracker tracker(scene.rig(), options);
+  for (int i = 0; i < 4; ++i) tracker.track(scene.pair(0.1 * i, pose_at(i)));
+  const TrackResult coasting = tracker.track(broken(0.4)).result;
+  EXPECT_EQ(coasting.status, TrackStatus::kCoasting);
+  EXPECT_EQ(coasting.reason, "left image truncated");
+  EXPECT_LT(position_error(coasting, 4), 0.01);  // constant velocity carries
+  const TrackResult later = tracker.track(broken(0.8)).result;
+  EXPECT_GT(later.covariance.trace(), coasting.covariance.trace());
+  EXPECT_GT(later.entropy, coasting.entropy);
+  const TrackResult lost = tracker.track(broken(0.4 + options.state.coast_time + 0.1)).result;
+  EXPECT_EQ(lost.status, TrackStatus::kLost);
+  EXPECT_GT(lost.covariance(0, 0), 1e3);
+}
+
+TEST(Tracker, RecoversAfterABadPair) {
+  const test::PlaneScene scene(14);
+  Tracker tracker(scene.rig(), small_options());
+  for (int i = 0; i < 4; ++i) tracker.track(scene.pair(0.1 * i, pose_at(i)));
+  tracker.track(broken(0.4));
+  const TrackResult after = tracker.track(scene.pair(0.5, pose_at(5))).result;
+  EXPECT_EQ(after.status, TrackStatus::kTracking);
+  EXPECT_LT(position_error(after, 5), 0.01);
+}
+
+TEST(Tracker, WithoutAnythingToSeeItDoesNotBegin) {
+  const test::PlaneScene scene(15);
+  Tracker tracker(scene.rig(), small_options());
+  const cv::Mat blank(240, 320, CV_8UC1, cv::Scalar(100));
+  const TrackResult result = tracker.track({0, blank, blank, ""}).result;
+  EXPECT_EQ(result.status, TrackStatus::kInitializing);
+  EXPECT_FALSE(result.reason.empty());
+  EXPECT_EQ(tracker.track(broken(0.1)).result.status, TrackStatus::kInitializing);
+  EXPECT_EQ(tracker.track(scene.pair(0.2, pose_at(0))).result.status, TrackStatus::kTracking);
+}
+
+TEST(Tracker, ImagesOfAnotherSizeAreNamed) {
+  const test::PlaneScene scene(16);
+  Tracker tracker(scene.rig(), small_options());
+  const cv::Mat wide(240, 640, CV_8UC1, cv::Scalar(100));
+  EXPECT_NE(tracker.track({0, wide, wide, ""}).result.reason.find("640 x 240"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace spslam
