@@ -35,7 +35,7 @@ struct LeafDetail {
 LeafDetail leaf_detail(double distance, double area, double detail) {
   const double length = std::clamp(0.0085 * distance + 0.04, 0.09, 1.0);
   return {static_cast<float>(length / std::sqrt(detail)),
-          std::max(12, static_cast<int>(detail * 3.0 * area / (length * length)))};
+          std::max(12, static_cast<int>(detail * 4.2 * area / (length * length)))};
 }
 
 void plant_trees(Mesh& mesh, const Shoreline& shore, const SceneDescription& scene, Random& random) {

@@ -61,31 +61,30 @@ void add_strand(Mesh& mesh, const Vector3f& top, float length, float leaf, int l
 
 void add_tree(Mesh& mesh, const TreeShape& tree, Random& random) {
   const QuadInfo bark{Material::kWood, false, 0.16F};
-  const float girth = 0.022F * tree.height;
-  const Vector3f fork = tree.foot + Vector3f(0.4F * tree.lean.x(), 0.4F * tree.lean.y(),
-                                             tree.height * uniform(random, 0.38, 0.5));
+  const float girth = 0.02F * tree.height;
+  const Vector3f lean(tree.lean.x(), tree.lean.y(), 0);
+  const Vector3f fork = tree.foot + 0.5F * lean + Vector3f(0, 0, tree.height * uniform(random, 0.34, 0.46));
+  const Vector3f top = tree.foot + lean + Vector3f(0, 0, 0.82F * tree.height);
   add_bar(mesh, tree.foot - Vector3f(0, 0, 0.3F), fork, girth, 0.75F * girth, 7, bark);
-  const int branches = tree.leaves > 600 ? 10 : tree.leaves > 200 ? 6 : 4;
-  const int per_branch = std::max(6, tree.leaves / (branches * 3));
-  const Vector3f heart = tree.foot + Vector3f(tree.lean.x(), tree.lean.y(), tree.height * 0.72F);
-  for (int i = 0; i < branches; ++i) {
-    const float angle = 2 * static_cast<float>(M_PI) * (static_cast<float>(i) + uniform(random, 0, 0.7)) /
-                        static_cast<float>(branches);
-    const float reach = tree.crown * uniform(random, 0.35, 0.85);
-    const Vector3f tip = heart + Vector3f(reach * std::cos(angle), reach * std::sin(angle),
-                                          tree.height * uniform(random, -0.24, 0.2));
-    add_bar(mesh, fork, tip, 0.45F * girth, 0.12F * girth, 5, bark);
-    for (int k = 0; k < 3; ++k) {
-      const float clump = tree.crown * uniform(random, 0.28, 0.5);
-      const Vector3f at = tip + 0.45F * tree.crown * direction(random).cwiseProduct(Vector3f(1, 1, 0.6F)) *
-                                    (k == 0 ? 0.0F : 1.0F);
-      if (!tree.weeping || k == 0)
-        add_clump(mesh, at, clump, tree.leaf, per_branch, random);
-      else
-        for (int strand = 0; strand < 6; ++strand)
-          add_strand(mesh, at + clump * direction(random), tree.height * uniform(random, 0.25, 0.5),
-                     tree.leaf, std::max(4, per_branch / 6), random);
+  add_bar(mesh, fork, top, 0.75F * girth, 0.15F * girth, 6, bark);
+  const Vector3f heart = tree.foot + lean + Vector3f(0, 0, 0.66F * tree.height);
+  const int clumps = tree.leaves > 2500 ? 34 : tree.leaves > 600 ? 24 : tree.leaves > 150 ? 12 : 6;
+  const int per_clump = std::max(4, tree.leaves / clumps);
+  for (int i = 0; i < clumps; ++i) {
+    const Vector3f out = direction(random) * std::cbrt(uniform(random, 0.1, 1));
+    const Vector3f at = heart + Vector3f(out.x() * tree.crown, out.y() * tree.crown, out.z() * 0.3F * tree.height);
+    if (i % 3 == 0) {
+      const Vector3f branching = fork + (top - fork) * uniform(random, 0.0, 0.6);
+      add_bar(mesh, branching, at, 0.32F * girth, 0.08F * girth, 5, bark);
     }
+    const float radius = tree.crown * uniform(random, 0.26, 0.44);
+    if (!tree.weeping || i % 2 == 0) {
+      add_clump(mesh, at, radius, tree.leaf, per_clump, random);
+      continue;
+    }
+    for (int strand = 0; strand < 6; ++strand)
+      add_strand(mesh, at + radius * direction(random), tree.height * uniform(random, 0.25, 0.5), tree.leaf,
+                 std::max(4, per_clump / 6), random);
   }
 }
 

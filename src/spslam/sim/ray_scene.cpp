@@ -32,6 +32,8 @@ RayScene::RayScene(RTCDevice device, Mesh mesh) : mesh_(std::move(mesh)), scene_
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_.get(), geometry);
   rtcReleaseGeometry(geometry);
+  // Leaves overlap in every direction: splitting them costs a second once and saves an eighth of each image.
+  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
   rtcCommitScene(scene_.get());
   if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
     throw Error("Embree cannot build the scene of " + std::to_string(quads) + " quads (error " +

@@ -88,13 +88,14 @@ class TileRenderer {
 
   bool uneven(const std::array<PixelSum, static_cast<std::size_t>(kTile) * kTile>& sums, int x, int y,
               int columns, int rows) const {
-    float low = 1e30F, high = -1e30F;
-    for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    const PixelSum& own = sums[index(x, y)];
+    const float limit = static_cast<float>(options_.edge_contrast) * (own.mean() + 0.05F);
+    if (own.high - own.low > limit) return true;
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
       const int i = std::clamp(x + dx, 0, columns - 1), j = std::clamp(y + dy, 0, rows - 1);
-      const PixelSum& sum = sums[index(i, j)];
-      low = std::min(low, sum.low), high = std::max(high, sum.high);
+      if (std::abs(sums[index(i, j)].mean() - own.mean()) > 1.5F * limit) return true;
     }
-    return high - low > static_cast<float>(options_.edge_contrast) * (0.5F * (high + low) + 0.1F);
+    return false;
   }
 
   void trace(int left, int top, const std::vector<Shot>& shots,

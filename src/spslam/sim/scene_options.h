@@ -232,8 +232,8 @@ struct RigOptions {
 
 struct RenderOptions {
   int samples = 2;
-  int edge_samples = 4;
-  double edge_contrast = 0.10;
+  int edge_samples = 3;
+  double edge_contrast = 0.35;
   double detail = 1.0;
   double lens_blur = 0.45;
   template <class Self, class Visitor>

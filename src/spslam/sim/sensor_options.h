@@ -8,11 +8,11 @@
 namespace spslam::sim {
 
 struct SensorOptions {
-  double read_noise = 1.0;
-  double full_well = 6000;
+  double read_noise = 0.5;
+  double full_well = 9000;
   double vignetting = 0.18;
   double gain_difference = 0.02;
-  double target = 0.42;
+  double target = 0.47;
   double exposure_delay = 0.25;
   double exposure_step = 0.04;
   double exposure_bias = 0;

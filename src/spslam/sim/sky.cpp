@@ -23,7 +23,7 @@ float ramp(float low, float high, float x) {
 float sky_colour(const Vector3f& d, const Vector3f& sun, const SkyOptions& options, std::uint32_t seed) {
   const auto cover = static_cast<float>(options.cloud_cover), strength = static_cast<float>(options.sun);
   const float low = 1 - d.z();
-  const float clear = 0.5F + 0.5F * low * low * low;
+  const float clear = 0.62F + 0.6F * low * low * low;
   const float near_sun = std::max(0.0F, d.dot(sun));
   const float glow = strength * (0.25F * std::pow(near_sun, 8.0F) + 0.7F * std::pow(near_sun, 90.0F));
   // Clouds on a plane overhead; they close up towards the horizon.
@@ -31,7 +31,7 @@ float sky_colour(const Vector3f& d, const Vector3f& sun, const SkyOptions& optio
   const float shape = tile_noise(x, y, 16, 7, seed + 3);
   const float edge = 0.45F - 0.95F * cover;
   const float cloud = ramp(edge, edge + 0.35F, shape) * ramp(0.0F, 0.06F, d.z() + 0.02F);
-  const float lit = 0.95F + 0.55F * tile_noise(x, y, 40, 5, seed + 5) + 0.35F * strength * (0.4F + near_sun);
+  const float lit = 1.1F + 0.6F * tile_noise(x, y, 40, 5, seed + 5) + 0.35F * strength * (0.4F + near_sun);
   return (clear + glow) * (1 - cloud) + cloud * std::max(0.45F, lit);
 }
 

@@ -30,18 +30,21 @@ Texture::Texture(const std::vector<float>& values) {
 
 namespace {
 
-float lattice(int x, int y, int period, std::uint32_t seed) {
-  const auto wrap = [period](int a) { return static_cast<std::uint32_t>(((a % period) + period) % period); };
-  return 2 * unit(mix(wrap(x), wrap(y), seed)) - 1;
-}
-
 float value_noise(float x, float y, int period, std::uint32_t seed) {
   const float fx = std::floor(x), fy = std::floor(y);
-  const int i = static_cast<int>(fx), j = static_cast<int>(fy);
+  const auto wrap = [period](float cell) {
+    const int rest = static_cast<int>(cell) % period;
+    return static_cast<std::uint32_t>(rest < 0 ? rest + period : rest);
+  };
+  const auto next = [period](std::uint32_t i) { return i + 1 == static_cast<std::uint32_t>(period) ? 0U : i + 1; };
+  const std::uint32_t i = wrap(fx), j = wrap(fy), i1 = next(i), j1 = next(j);
+  const auto value = [seed](std::uint32_t p, std::uint32_t q) {
+    return 2 * unit(mix(p * 0x9e3779b1U ^ q * 0x85ebca77U ^ seed)) - 1;
+  };
   const auto ease = [](float t) { return t * t * (3 - 2 * t); };
   const float a = ease(x - fx), b = ease(y - fy);
-  const float top = lattice(i, j, period, seed) * (1 - a) + lattice(i + 1, j, period, seed) * a;
-  const float bottom = lattice(i, j + 1, period, seed) * (1 - a) + lattice(i + 1, j + 1, period, seed) * a;
+  const float top = value(i, j) * (1 - a) + value(i1, j) * a;
+  const float bottom = value(i, j1) * (1 - a) + value(i1, j1) * a;
   return top * (1 - b) + bottom * b;
 }
 
@@ -51,7 +54,7 @@ float tile_noise(float x, float y, int cells, int octaves, std::uint32_t seed) {
   float sum = 0, weight = 0.6F;
   for (int octave = 0; octave < octaves; ++octave) {
     sum += weight * value_noise(x * static_cast<float>(cells), y * static_cast<float>(cells), cells,
-                                seed + static_cast<std::uint32_t>(octave) * 101U);
+                                mix(seed + static_cast<std::uint32_t>(octave) * 101U));
     weight *= 0.6F;
     cells *= 2;
   }

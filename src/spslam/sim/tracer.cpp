@@ -61,7 +61,6 @@ Instant Tracer::instant(double time) const {
 void Tracer::intersect(const Instant& instant, RayGroup& rays) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(rays.active.data(), fixed_->handle(), &context, &rays.data);
   for (std::size_t i = 0; i < boats_.size(); ++i) intersect_boat(i, instant.boats[i], rays);
 }
@@ -113,9 +112,10 @@ float Tracer::surface(const RayGroup& rays, int lane, float pixel_angle, std::ui
   const Vector3f d = rays.direction(lane), n(hit.Ng_x[lane], hit.Ng_y[lane], hit.Ng_z[lane]);
   const float length = d.norm();
   const float cosine = std::abs(n.dot(d)) / (n.norm() * length + 1e-12F);
-  // Between the pixel's width and its length on a slanting face.
+  // Between the pixel's width and its length on a slanting face; a little sharp, since several rays share a
+  // pixel.
   const float footprint =
-      pixel_angle * rays.data.ray.tfar[lane] * length / std::sqrt(std::max(cosine, 0.02F));
+      0.6F * pixel_angle * rays.data.ray.tfar[lane] * length / std::sqrt(std::max(cosine, 0.02F));
   const QuadInfo& info = mesh.quads[quad];
   const float factor =
       materials_.factor(info.material, blend(o.u, p.u, q.u), blend(o.v, p.v, q.v), footprint, unit(key));
