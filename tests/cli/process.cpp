@@ -4,6 +4,7 @@
 #include "cli/process.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -42,29 +43,38 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-ProcessResult run_spslam(const std::vector<std::string>& arguments) {
-  const ScratchFolder scratch;
+RunningSpslam::RunningSpslam(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {SPSLAM_BINARY};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const std::string out = scratch.path("out"), err = scratch.path("err");
+  const std::string out = scratch_.path("out"), err = scratch_.path("err");
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, argv[0], &files, nullptr, argv.data(), environ);
+  const int failed = posix_spawn(&process_, argv[0], &files, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   if (failed != 0) throw std::runtime_error("cannot start " + words[0]);
+}
+
+void RunningSpslam::send(int signal) const {
+  kill(process_, signal);
+}
+
+ProcessResult RunningSpslam::wait() {
   int status = 0;
-  waitpid(child, &status, 0);
+  waitpid(process_, &status, 0);
   ProcessResult result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  result.out = read_file(out);
-  result.err = read_file(err);
+  result.out = read_file(scratch_.path("out"));
+  result.err = read_file(scratch_.path("err"));
   return result;
+}
+
+ProcessResult run_spslam(const std::vector<std::string>& arguments) {
+  return RunningSpslam(arguments).wait();
 }
 
 }  // namespace spslam

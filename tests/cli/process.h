@@ -14,9 +14,6 @@ struct ProcessResult {
   std::string err;
 };
 
-// Runs `spslam arguments...` and waits for its end.
-ProcessResult run_spslam(const std::vector<std::string>& arguments);
-
 // A folder for one test's files, removed with it.
 class ScratchFolder {
  public:
@@ -32,5 +29,22 @@ class ScratchFolder {
 };
 
 std::string read_file(const std::string& path);
+
+// `spslam arguments...` while it runs. wait() must be called once.
+class RunningSpslam {
+ public:
+  explicit RunningSpslam(const std::vector<std::string>& arguments);
+  RunningSpslam(const RunningSpslam&) = delete;
+  RunningSpslam& operator=(const RunningSpslam&) = delete;
+  void send(int signal) const;
+  ProcessResult wait();
+
+ private:
+  ScratchFolder scratch_;
+  int process_ = 0;
+};
+
+// Runs `spslam arguments...` and waits for its end.
+ProcessResult run_spslam(const std::vector<std::string>& arguments);
 
 }  // namespace spslam

@@ -15,8 +15,11 @@ using Command = std::function<int()>;
 
 // Each adds its subcommand with its options to app; the subcommand's callback only puts its work into
 // `chosen`.
+void add_config(CLI::App& app, Command& chosen);
 void add_evaluate(CLI::App& app, Command& chosen);
 void add_report(CLI::App& app, Command& chosen);
+void add_run(CLI::App& app, Command& chosen);
+void add_segment(CLI::App& app, Command& chosen);
 void add_simulate(CLI::App& app, Command& chosen);
 
 // The exit code of a wrong command line.

@@ -26,8 +26,11 @@ int fail(const char* message, int exit_code) {
 }
 
 void add_commands(CLI::App& app, Command& chosen) {
+  add_run(app, chosen);
+  add_config(app, chosen);
   add_evaluate(app, chosen);
   add_report(app, chosen);
+  add_segment(app, chosen);
   add_simulate(app, chosen);
 }
 

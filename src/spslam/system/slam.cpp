@@ -3,6 +3,7 @@
 
 #include "spslam/system/slam.h"
 
+#include <cmath>
 #include <mutex>
 #include <thread>
 
@@ -64,7 +65,7 @@ Slam::Slam(const StereoRig& rig, const SlamOptions& options) {
 Slam::~Slam() = default;
 
 TrackResult Slam::track(const StereoFrame& pair) {
-  if (stages_->has_frame && !(pair.timestamp > stages_->last_timestamp)) {
+  if (!std::isfinite(pair.timestamp) || (stages_->has_frame && pair.timestamp <= stages_->last_timestamp)) {
     TrackResult refused;
     refused.timestamp = pair.timestamp;
     refused.reason =

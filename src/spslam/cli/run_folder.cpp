@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/cli/run_folder.h"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include "spslam/base/error.h"
+#include "spslam/io/text.h"
+
+namespace spslam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLogFile = "log.txt";
+// Whatever a run, or a report on it, leaves.
+constexpr const char* kResults[] = {"trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",
+                                    "keyframes.csv",      "config.yaml",          "metrics.json",
+                                    "timing.json",        "report.html",          kLogFile};
+
+void prepare_folder(const fs::path& folder, bool overwrite) {
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw OutputError(folder.string() + " is a file; give a folder with --output");
+  if (fs::exists(folder) && !fs::is_empty(folder) && !overwrite)
+    throw OutputError(folder.string() +
+                      " is not empty; give another folder with --output, or --overwrite to replace the "
+                      "results that are in it");
+  fs::create_directories(folder);
+  for (const char* name : kResults) fs::remove(folder / name);
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(fs::path folder, bool overwrite) : folder_(std::move(folder)) {
+  try {
+    prepare_folder(folder_, overwrite);
+    start_log();
+  } catch (const fs::filesystem_error& error) {
+    throw OutputError(folder_.string() + " cannot be written to (" + error.code().message() +
+                      "); give a folder of your own with --output");
+  } catch (const spdlog::spdlog_ex& error) {
+    throw OutputError(std::string(error.what()) + "; give a folder of your own with --output");
+  }
+}
+
+// The file gets info and above, the terminal what it got before.
+void ResultFolder::start_log() {
+  log_ = std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder_ / kLogFile).string(), true);
+  log_->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
+  log_->set_level(spdlog::level::info);
+  spdlog::logger& logger = *spdlog::default_logger();
+  for (const auto& sink : logger.sinks()) sink->set_level(std::max(sink->level(), logger.level()));
+  logger.set_level(std::min(logger.level(), spdlog::level::info));
+  logger.sinks().push_back(log_);
+  logger.flush_on(spdlog::level::info);  // a log is read while its run lasts
+}
+
+ResultFolder::~ResultFolder() {
+  if (log_ == nullptr) return;
+  log_->flush();
+  std::erase(spdlog::default_logger()->sinks(), log_);
+}
+
+void ResultFolder::write(const std::string& name, std::string_view text) const {
+  const fs::path temporary = folder_ / (name + ".partial");
+  std::error_code code;
+  try {
+    write_text_file(temporary, text);
+  } catch (const OutputError&) {
+    fs::remove(temporary, code);
+    throw;
+  }
+  fs::rename(temporary, folder_ / name, code);
+  if (!code) return;
+  const std::string why = code.message();
+  fs::remove(temporary, code);
+  throw OutputError((folder_ / name).string() + " cannot be written (" + why + ")");
+}
+
+}  // namespace spslam

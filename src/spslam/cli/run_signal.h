@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// SIGINT and SIGTERM become a question that the loop over the frames asks.
+#pragma once
+
+namespace spslam {
+
+// From now to the end of the process. The signals then no longer end it, however often they come.
+void watch_for_interruption();
+// The last signal of the two that has come, 0 without one.
+int interruption();
+
+}  // namespace spslam

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// What a run has to tell, as the texts of its files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spslam/io/dataset.h"
+#include "spslam/system/slam.h"
+
+namespace spslam {
+
+struct FrameRecord {
+  int index = 0;  // in the data set
+  double decode_seconds = 0;
+  TrackResult result;
+};
+
+struct RunRecord {
+  std::vector<FrameRecord> frames;         // in the order they were given
+  std::vector<TrajectoryPose> trajectory;  // this and what follows: after Slam::finish()
+  std::vector<KeyframeInfo> keyframes;
+  std::size_t landmarks = 0;
+  double wall_seconds = 0;
+};
+
+// frames.csv: one line a frame, times in ms, standard deviations in m and rad (the roots of the traces of the
+// covariance's blocks); near and far count what was found.
+std::string frames_csv(const RunRecord& record);
+std::string keyframes_csv(const RunRecord& record);
+Trajectory stamped_trajectory(const RunRecord& record);
+// A row for each frame given: one without a pose of its own repeats the pose before it, or, before the first,
+// the first pose. Empty if no frame has a pose.
+Trajectory trajectory_of_every_frame(const RunRecord& record);
+// Stages of the frames whose pair was usable, and of all frames for decoding, in ms; totals in s and MB.
+std::string timing_json(const RunRecord& record, const std::string& dataset);
+double peak_memory_mb();
+// Median of the whole tracking of a usable frame, in ms; 0 without one.
+double median_frame_ms(const RunRecord& record);
+// "49 tracking, 1 coasting"
+std::string state_counts(const RunRecord& record);
+
+}  // namespace spslam

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// `spslam run` as a user sees it: its files, and what becomes of them when something is wrong.
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/process.h"
+#include "spslam/eval/run_folder.h"
+#include "system/synthetic_scene.h"
+
+namespace spslam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr const char* kFiles[] = {
+    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv",
+    "config.yaml",        "metrics.json",         "timing.json", "log.txt"};
+
+// A rendered data set and a place for results.
+class Run : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scene_folder = std::make_unique<ScratchFolder>();
+    test::write_scene(scene_folder->path("scene"));
+  }
+  static void TearDownTestSuite() { scene_folder.reset(); }
+
+  static std::string scene() { return scene_folder->path("scene"); }
+  // A copy that a test may damage.
+  std::string own_scene() const {
+    fs::copy(scene(), scratch.path("scene"), fs::copy_options::recursive);
+    return scratch.path("scene");
+  }
+  std::string out(const std::string& name = "out") const { return scratch.path(name); }
+  std::string result(const std::string& file) const { return read_file(out() + "/" + file); }
+  std::size_t lines(const std::string& file) const {
+    const std::string text = result(file);
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+  std::vector<ReportFrame> frames() const { return parse_frames_csv(result("frames.csv"), "frames.csv"); }
+  ProcessResult run(std::vector<std::string> more, const std::string& dataset = scene()) const {
+    std::vector<std::string> arguments = {"run", dataset, "--output", out(), "--sequential"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_spslam(arguments);
+  }
+
+  ScratchFolder scratch;
+  static inline std::unique_ptr<ScratchFolder> scene_folder;
+};
+
+TEST_F(Run, WritesEveryFile) {
+  const ProcessResult result_ = run({"--realtime"});
+  ASSERT_EQ(result_.exit_code, 0) << result_.err;
+  EXPECT_EQ(result_.err, "") << "no progress without a terminal";
+  EXPECT_THAT(result_.out, AllOf(HasSubstr("16 tracking"), HasSubstr("ATE [m]"), HasSubstr(out())));
+  for (const char* file : kFiles) EXPECT_NE(result(file), "") << file;
+  EXPECT_EQ(std::distance(fs::directory_iterator(out()), {}), std::ssize(kFiles)) << "and nothing else";
+  EXPECT_EQ(lines("trajectory_kitti.txt"), 16U);
+  EXPECT_EQ(parse_tum(result("trajectory_tum.txt"), "").size(), 16U);
+  ASSERT_EQ(frames().size(), 16U);
+  EXPECT_EQ(frames()[5].state, "tracking");
+  EXPECT_DOUBLE_EQ(frames()[5].timestamp, 0.5);
+  EXPECT_TRUE(frames()[0].keyframe);
+  EXPECT_GT(lines("keyframes.csv"), 1U);
+  EXPECT_THAT(result("config.yaml"), HasSubstr("threads: sequential"));
+  const auto metrics = nlohmann::json::parse(result("metrics.json"));
+  EXPECT_LT(metrics["ate_m"]["rmse"], 0.01);
+  const auto timing = nlohmann::json::parse(result("timing.json"));
+  EXPECT_GT(timing["peak_rss_mb"], 1);
+  for (const char* stage : {"decode", "front_end", "follow", "motion", "window", "keyframe", "total"}) {
+    const auto& spread = timing["stages"][stage];
+    EXPECT_LE(spread["p50"], spread["p95"]) << stage;
+    EXPECT_LE(spread["p95"], spread["max"]) << stage;
+  }
+}
+
+TEST_F(Run, ReportReadsTheFolder) {
+  ASSERT_EQ(run({}).exit_code, 0);
+  const ProcessResult report = run_spslam({"report", out()});
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_THAT(result("report.html"), AllOf(HasSubstr("front_end"), HasSubstr("tracker.window_frames")));
+}
+
+TEST_F(Run, EffectiveConfigGivesTheSameRunAgain) {
+  ASSERT_EQ(run({"--preset", "baseline", "--set", "tracker.follow.max_missed=3"}).exit_code, 0);
+  const std::string first = result("trajectory_tum.txt");
+  const std::string config = scratch.write("first.yaml", result("config.yaml"));
+  ASSERT_EQ(run({"--overwrite", "--config", config}).exit_code, 0);
+  EXPECT_EQ(result("trajectory_tum.txt"), first);
+}
+
+TEST_F(Run, TwiceGivesTheSameBytes) {
+  ASSERT_EQ(run({}).exit_code, 0);
+  const std::string tum = result("trajectory_tum.txt"), kitti = result("trajectory_kitti.txt");
+  ASSERT_NE(tum, "");
+  ASSERT_EQ(run({"--overwrite", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(result("trajectory_tum.txt"), tum);
+  EXPECT_EQ(result("trajectory_kitti.txt"), kitti);
+}
+
+TEST_F(Run, PartOfTheFramesQuietly) {
+  const ProcessResult part = run({"--start", "4", "--end", "9", "--quiet"});
+  EXPECT_EQ(part.exit_code, 0);
+  EXPECT_EQ(part.out + part.err, "");
+  ASSERT_EQ(frames().size(), 5U);
+  EXPECT_DOUBLE_EQ(frames()[0].timestamp, 0.4);
+  EXPECT_THAT(result("frames.csv"), HasSubstr("\n4,0.4"));
+  EXPECT_EQ(lines("trajectory_kitti.txt"), 5U);
+}
+
+struct BadImage {
+  const char* name;
+  std::function<void(const fs::path&)> break_it;
+};
+
+class RunBadImage : public Run, public testing::WithParamInterface<BadImage> {};
+
+TEST_P(RunBadImage, InTheMiddleCoastsAndTracksAgain) {
+  const std::string dataset = own_scene();
+  GetParam().break_it(fs::path(dataset) / "image_1" / test::scene_image_name(6));
+  const ProcessResult done = run({}, dataset);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("15 tracking, 1 coasting"));
+  ASSERT_EQ(frames().size(), 16U);
+  for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(frames()[i].state, i == 6 ? "coasting" : "tracking") << i;
+  EXPECT_EQ(lines("trajectory_kitti.txt"), 16U);
+  EXPECT_THAT(result("frames.csv"), HasSubstr("right image 000006.png"));
+  EXPECT_THAT(result("log.txt"), HasSubstr("frame 6: coasting: right image 000006.png"));
+  EXPECT_LT(nlohmann::json::parse(result("metrics.json"))["ate_m"]["rmse"], 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cli, RunBadImage,
+    testing::Values(BadImage{"missing", [](const fs::path& image) { fs::remove(image); }},
+                    BadImage{"empty", [](const fs::path& image) { fs::resize_file(image, 0); }},
+                    BadImage{"truncated",
+                             [](const fs::path& image) { fs::resize_file(image, fs::file_size(image) / 2); }},
+                    BadImage{"one_pixel",
+                             [](const fs::path& image) {
+                               cv::imwrite(image.string(), cv::Mat::zeros(1, 1, CV_8UC1));
+                             }}),
+    [](const testing::TestParamInfo<BadImage>& row) { return std::string(row.param.name); });
+
+TEST_F(Run, FramesBeforeTheFirstPoseRepeatIt) {
+  const std::string dataset = own_scene();
+  for (const int i : {0, 1}) fs::resize_file(fs::path(dataset) / "image_0" / test::scene_image_name(i), 0);
+  ASSERT_EQ(run({}, dataset).exit_code, 0);
+  EXPECT_EQ(frames()[1].state, "initializing");
+  EXPECT_EQ(parse_tum(result("trajectory_tum.txt"), "").size(), 14U);
+  const Trajectory rows = parse_kitti_poses(result("trajectory_kitti.txt"), "");
+  ASSERT_EQ(rows.size(), 16U);
+  EXPECT_EQ(rows[0].world_from_camera.translation, rows[2].world_from_camera.translation);
+  EXPECT_NE(rows[2].world_from_camera.translation, rows[3].world_from_camera.translation);
+}
+
+TEST_F(Run, NothingUsableStillEndsWell) {
+  const std::string dataset = own_scene();
+  for (int i = 0; i < test::kSceneFrames; ++i)
+    for (const char* eye : {"image_0", "image_1"})
+      cv::imwrite((fs::path(dataset) / eye / test::scene_image_name(i)).string(),
+                  cv::Mat::zeros(200, 320, CV_8UC1));
+  const ProcessResult done = run({}, dataset);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("16 initializing"), HasSubstr("no frame could be tracked")));
+  EXPECT_EQ(frames().size(), 16U);
+  EXPECT_FALSE(fs::exists(out() + "/metrics.json"));
+}
+
+struct BadRun {
+  const char* name;
+  std::vector<std::string> arguments;
+  int exit_code;
+  std::vector<std::string> said;
+};
+
+class RefusedRun : public Run, public testing::WithParamInterface<BadRun> {};
+
+TEST_P(RefusedRun, LeavesNoResults) {
+  const ProcessResult refused = run(GetParam().arguments);
+  EXPECT_EQ(refused.exit_code, GetParam().exit_code);
+  EXPECT_EQ(refused.out, "");
+  for (const std::string& part : GetParam().said) EXPECT_THAT(refused.err, HasSubstr(part));
+  EXPECT_FALSE(fs::exists(out()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cli, RefusedRun,
+    testing::Values(BadRun{"UnknownKey", {"--set", "tracker.folow.align=false"}, 2, {"tracker.follow.align"}},
+                    BadRun{"UnknownOption", {"--sequental"}, 2, {"--sequential"}},
+                    BadRun{"NoSuchFrames", {"--start", "99"}, 2, {"99", "16"}},
+                    BadRun{"EmptyRange", {"--start", "5", "--end", "5"}, 2, {"start"}},
+                    BadRun{"UnknownFormat", {"--format", "kiti"}, 2, {"kitti"}},
+                    BadRun{"OtherFormat", {"--format", "euroc"}, 1, {"mav0"}},
+                    BadRun{"MissingCalibration", {"--calibration", "none.yaml"}, 1, {"none.yaml"}}),
+    [](const testing::TestParamInfo<BadRun>& row) { return row.param.name; });
+
+TEST_F(Run, MissingDatasetIsAnInputError) {
+  const ProcessResult refused = run({}, scratch.path("none"));
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("does not exist"));
+}
+
+TEST_F(Run, CalibrationOfAnotherSizeIsAnInputError) {
+  StereoRig rig = test::scene_rig();
+  rig.width = 640, rig.height = 400, rig.cx = 319.5, rig.cy = 199.5;
+  const std::string file = scratch.write("other.yaml", format_calibration_yaml(rig));
+  const ProcessResult refused = run({"--calibration", file});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("640 x 400"), HasSubstr("320 x 200")));
+}
+
+TEST_F(Run, FolderWithFilesIsRefusedUnlessOverwritten) {
+  scratch.write("out/notes.txt", "mine");
+  scratch.write("out/metrics.json", "of an earlier run");
+  const ProcessResult refused = run({});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("not empty"), HasSubstr("--overwrite")));
+  EXPECT_EQ(result("metrics.json"), "of an earlier run");
+  EXPECT_EQ(run({"--overwrite"}).exit_code, 0);
+  EXPECT_EQ(result("notes.txt"), "mine");
+  EXPECT_THAT(result("metrics.json"), HasSubstr("ate_m"));
+}
+
+TEST_F(Run, OutputThatCannotBeAFolder) {
+  const std::string file = scratch.write("file", "x");
+  for (const std::string& place : {file, file + "/below", std::string("/proc/spslam")}) {
+    const ProcessResult refused = run_spslam({"run", scene(), "--output", place});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, AllOf(HasSubstr(place), HasSubstr("--output")));
+  }
+}
+
+TEST_F(Run, FullDiskLosesNothingElse) {
+  fs::create_directories(out());
+  fs::create_symlink("/dev/full", out() + "/trajectory_tum.txt.partial");
+  const ProcessResult full = run({"--overwrite"});
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.err, AllOf(HasSubstr("trajectory_tum.txt"), HasSubstr("space")));
+  EXPECT_FALSE(fs::exists(out() + "/trajectory_tum.txt"));
+  EXPECT_EQ(frames().size(), 16U);
+  EXPECT_EQ(lines("trajectory_kitti.txt"), 16U);
+}
+
+TEST_F(Run, FullDiskIsNoticedBeforeComputing) {
+  fs::create_directories(out());
+  fs::create_symlink("/dev/full", out() + "/config.yaml.partial");
+  EXPECT_EQ(run({"--overwrite"}).exit_code, 1);
+  EXPECT_FALSE(fs::exists(out() + "/frames.csv"));
+}
+
+class RunInterrupted : public Run, public testing::WithParamInterface<int> {};
+
+TEST_P(RunInterrupted, WritesWhatWasDone) {
+  // A frame each five seconds: the end is far away when the signal comes.
+  RunningSpslam running({"run", scene(), "--output", out(), "--realtime", "--rate", "0.2"});
+  for (int i = 0; i < 6000 && result("log.txt").find("frame 0: tracking") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  running.send(GetParam());
+  const ProcessResult interrupted = running.wait();
+  EXPECT_EQ(interrupted.exit_code, 128 + GetParam());
+  EXPECT_THAT(interrupted.err, HasSubstr("interrupted after"));
+  ASSERT_GE(frames().size(), 1U);
+  EXPECT_LT(frames().size(), 16U);
+  EXPECT_EQ(lines("trajectory_kitti.txt"), frames().size());
+  EXPECT_EQ(parse_tum(result("trajectory_tum.txt"), "").size(), frames().size());
+  for (const char* file : {"keyframes.csv", "config.yaml", "timing.json"})
+    EXPECT_NE(result(file), "") << file;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cli, RunInterrupted, testing::Values(SIGINT, SIGTERM));
+
+}  // namespace
+}  // namespace spslam
