@@ -27,8 +27,8 @@ Sighting make_sighting(LandmarkId id, const Eigen::Vector2f& position, double si
 }
 
 void add_disparity(const Frame& frame, double predicted, const TrackerOptions& options, Sighting& sighting) {
-  const auto disparity =
-      align_disparity(frame, sighting.measured.head<2>().cast<float>(), predicted, options);
+  const auto disparity = align_disparity(frame, sighting.measured.head<2>().cast<float>(), predicted,
+                                         options.follow.disparity_first_level, options);
   if (!disparity) return;
   sighting.measured.z() = *disparity;
   sighting.inverse_sigma.z() = 1 / options.follow.disparity_sigma;
@@ -135,10 +135,11 @@ std::optional<Prediction> predict(const ActiveMap& map, const Landmark& landmark
 }
 
 std::optional<double> align_disparity(const Frame& frame, const Eigen::Vector2f& left, double start,
-                                      const TrackerOptions& options) {
+                                      int first_level, const TrackerOptions& options) {
   const Eigen::Matrix2f upright = Eigen::Matrix2f::Identity();
   const Eigen::Vector2f guess(left.x() - static_cast<float>(start), left.y());
-  const Alignment right = align_patch(frame.left, left, frame.right, guess, upright, options.alignment, 1);
+  const Alignment right =
+      align_patch(frame.left, left, frame.right, guess, upright, options.alignment, first_level);
   if (!right.ok() || std::abs(right.position.y() - left.y()) > options.follow.max_row_offset)
     return std::nullopt;
   const Alignment back =

@@ -26,10 +26,10 @@ struct Prediction {
 std::optional<Prediction> predict(const ActiveMap& map, const Landmark& landmark,
                                   const SE3& camera_from_world);
 
-// Disparity (left x minus right x, px) of a point of the left image by alignment, from `start`; nothing if it
-// fails, does not lead back, or the rows differ too much.
+// Disparity (left x minus right x, px) of a point of the left image by alignment from `start`, first on
+// `first_level`; nothing if it fails, does not lead back, or the rows differ too much.
 std::optional<double> align_disparity(const Frame& frame, const Eigen::Vector2f& left, double start,
-                                      const TrackerOptions& options);
+                                      int first_level, const TrackerOptions& options);
 
 // The landmarks (indices into map.landmarks) found in the frame, in the order given. levels: pyramid levels
 // to align on.

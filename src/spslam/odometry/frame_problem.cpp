@@ -24,6 +24,8 @@ class ProblemBuilder {
   }
   void set_place(KeyframeId id, int pose) { place_of_host_[id] = pose; }
 
+  bool has_place(KeyframeId id) const { return place_of_host_.contains(id); }
+
   // The place of landmark i of the map; its host becomes a fixed pose if it is not one of the free ones.
   int landmark(int i, bool from_prior) {
     if (place_of_[i] >= 0) return place_of_[i];
@@ -73,6 +75,21 @@ MotionEstimate newest_estimate(const SolveSummary& summary, const SE3& pose) {
   return estimate;
 }
 
+enum class Hosts { kAll, kOfWindow };
+
+// All frames of the window, the first one fixed, and what they saw of landmarks with a host among `hosts`.
+void add_window(const ActiveMap& map, Hosts hosts, ProblemBuilder& builder) {
+  for (std::size_t f = 0; f < map.window.size(); ++f) {
+    builder.add_pose(map.window[f].camera_from_world, f == 0);
+    if (map.window[f].keyframe.valid()) builder.set_place(map.window[f].keyframe, static_cast<int>(f));
+  }
+  for (std::size_t f = 0; f < map.window.size(); ++f)
+    for (const Sighting& sighting : map.window[f].sightings)
+      if (const int i = map.index_of(sighting.landmark); i >= 0)
+        if (hosts == Hosts::kAll || builder.has_place(map.landmarks[i].landmark.host))
+          builder.observe(builder.landmark(i, true), static_cast<int>(f), sighting);
+}
+
 }  // namespace
 
 MotionEstimate estimate_motion(const ActiveMap& map, const std::vector<Sighting>& sightings, const SE3& start,
@@ -90,14 +107,7 @@ MotionEstimate estimate_motion(const ActiveMap& map, const std::vector<Sighting>
 
 MotionEstimate refine_window(ActiveMap& map, const SolverOptions& options) {
   ProblemBuilder builder(map, map.landmarks.size());
-  for (std::size_t f = 0; f < map.window.size(); ++f) {
-    builder.add_pose(map.window[f].camera_from_world, f == 0);
-    if (map.window[f].keyframe.valid()) builder.set_place(map.window[f].keyframe, static_cast<int>(f));
-  }
-  for (std::size_t f = 0; f < map.window.size(); ++f)
-    for (const Sighting& sighting : map.window[f].sightings)
-      if (const int i = map.index_of(sighting.landmark); i >= 0)
-        builder.observe(builder.landmark(i, true), static_cast<int>(f), sighting);
+  add_window(map, Hosts::kAll, builder);
   Problem& problem = builder.finish();
   if (problem.observations.size() < 3) return {};
   const SolveSummary summary = solve(problem, options, true);
@@ -113,6 +123,20 @@ MotionEstimate refine_window(ActiveMap& map, const SolverOptions& options) {
     if (const int place = builder.places()[i]; place >= 0)
       map.landmarks[i].landmark.inverse_depth = problem.landmarks[place].inverse_depth;
   return estimate;
+}
+
+SolveSummary solve_for_offset(const ActiveMap& map, const SolverOptions& options, DisparityOffset& offset) {
+  ProblemBuilder builder(map, map.landmarks.size());
+  // Poses of hosts outside of the window are fixed, at the scale that the offset of their time gave them.
+  add_window(map, Hosts::kOfWindow, builder);
+  Problem& problem = builder.finish();
+  problem.disparity_offset = offset;
+  // What earlier frames said of the inverse depths, they said under the offset of their time.
+  for (LandmarkVariable& landmark : problem.landmarks) landmark.prior_information = 0;
+  if (problem.observations.size() < 3) return {};
+  const SolveSummary summary = solve(problem, options, true);
+  offset = problem.disparity_offset;
+  return summary;
 }
 
 }  // namespace spslam

@@ -25,4 +25,7 @@ MotionEstimate estimate_motion(const ActiveMap& map, const std::vector<Sighting>
 // see. Returns the newest frame's estimate; the map's poses and inverse depths are replaced by the solution.
 MotionEstimate refine_window(ActiveMap& map, const SolverOptions& options);
 
+// The window with its disparity offset free; nothing but `offset` (in and out) is changed.
+SolveSummary solve_for_offset(const ActiveMap& map, const SolverOptions& options, DisparityOffset& offset);
+
 }  // namespace spslam

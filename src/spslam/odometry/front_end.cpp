@@ -20,10 +20,20 @@ std::string size_text(const cv::Mat& image) {
   return std::to_string(image.cols) + " x " + std::to_string(image.rows);
 }
 
+OrbOptions corner_options(const TrackerOptions& options) {
+  OrbOptions corners = options.orb;
+  corners.levels = std::min(options.landmarks.levels, options.orb.levels);
+  return corners;
+}
+
 }  // namespace
 
 FrontEnd::FrontEnd(const TrackerOptions& options)
-    : options_(options), left_(options.orb), right_(options.orb), segmenter_(options.segmentation) {}
+    : options_(options),
+      left_(options.orb),
+      right_(options.orb),
+      corners_(corner_options(options)),
+      segmenter_(options.segmentation) {}
 
 std::string FrontEnd::problem_of(const StereoFrame& pair, const StereoRig& rig) {
   if (!pair.problem.empty()) return pair.problem;
@@ -70,7 +80,7 @@ Features FrontEnd::new_corners(std::span<const cv::Point2f> occupied, int count)
   request.count = count;
   request.occupied = occupied;
   request.radius = static_cast<float>(options_.landmarks.spacing);
-  return left_.extract(image_, request);
+  return corners_.extract(image_, request);
 }
 
 }  // namespace spslam

@@ -30,7 +30,7 @@ class FrontEnd {
   bool needs_features() const;
 
   TrackerOptions options_;
-  OrbExtractor left_, right_;
+  OrbExtractor left_, right_, corners_;
   DistanceSegmenter segmenter_;
   cv::Mat image_;  // the left one of the frame processed last
 };

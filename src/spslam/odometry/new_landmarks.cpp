@@ -38,7 +38,7 @@ std::optional<Disparity> measure(const Frame& frame, const Keypoint& keypoint,
   const auto start =
       search_row(frame.left, at, frame.right, options.alignment.patch_radius, options.row_search);
   if (!start) return std::nullopt;
-  const auto disparity = align_disparity(frame, at, *start, options);
+  const auto disparity = align_disparity(frame, at, *start, 1, options);
   if (!disparity) return std::nullopt;
   return Disparity{*disparity, options.follow.disparity_sigma};
 }
@@ -80,10 +80,8 @@ std::vector<NewLandmark> find_new_landmarks(const ActiveMap& map, const Frame& f
     occupied.emplace_back(static_cast<float>(s.measured.x()), static_cast<float>(s.measured.y()));
   const Features corners = front_end.new_corners(occupied, count);
   std::vector<std::optional<Disparity>> disparities(corners.keypoints.size());
-  tbb::parallel_for(std::size_t{0}, disparities.size(), [&](std::size_t i) {
-    if (corners.keypoints[i].octave <= options.landmarks.max_octave)
-      disparities[i] = measure(frame, corners.keypoints[i], options);
-  });
+  tbb::parallel_for(std::size_t{0}, disparities.size(),
+                    [&](std::size_t i) { disparities[i] = measure(frame, corners.keypoints[i], options); });
   std::vector<NewLandmark> found;
   for (std::size_t i = 0; i < disparities.size(); ++i)
     if (disparities[i])

@@ -6,6 +6,7 @@
 #include "spslam/alignment/patch_aligner.h"
 #include "spslam/alignment/row_search.h"
 #include "spslam/features/orb_options.h"
+#include "spslam/odometry/rig_monitor.h"
 #include "spslam/optimize/problem.h"
 #include "spslam/segmentation/options.h"
 #include "spslam/stereo/options.h"
@@ -27,6 +28,7 @@ struct FollowOptions {
   int scouts = 120;
   int scout_levels = 4;
   int levels = 2;
+  int disparity_first_level = 0;
   double max_move = 12;
   double search_radius = 20;
   int max_distance = 64;
@@ -47,6 +49,8 @@ struct FollowOptions {
           {"scouts", "", "landmarks followed first and widely, to predict the others better", 0, 10000});
     visit(self.scout_levels, {"scout_levels", "", "pyramid levels the scouts are aligned on", 1, 6});
     visit(self.levels, {"levels", "", "pyramid levels the others are aligned on", 1, 6});
+    visit(self.disparity_first_level,
+          {"disparity_first_level", "", "pyramid level on which alignment from eye to eye starts", 0, 5});
     visit(self.max_move,
           {"max_move", "px", "farthest from its prediction that a patch may be found after the scouts", 0.5,
            200});
@@ -143,16 +147,18 @@ struct StateOptions {
 };
 
 struct LandmarkOptions {
-  int count = 1200;
+  int count = 600;
   double spacing = 6;
-  int max_octave = 3;
+  int levels = 1;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.count, {"count", "", "landmarks that are followed at most", 20, 20000});
     visit(self.spacing,
           {"spacing", "px", "least distance of a new landmark from those that are followed", 1, 100});
-    visit(self.max_octave, {"max_octave", "", "highest pyramid level a landmark may come from", 0, 15});
+    visit(self.levels,
+          {"levels", "", "pyramid levels (of orb.levels) that new landmarks come from: 1 for full size only",
+           1, 16});
   }
 };
 
@@ -170,6 +176,7 @@ struct TrackerOptions {
   SolverOptions motion;
   SolverOptions window{.iterations = 6};
   int window_frames = 10;
+  RigOptions rig;
   KeyframeOptions keyframe;
   StateOptions state;
 
@@ -189,6 +196,7 @@ struct TrackerOptions {
     visit.group("motion", self.motion);
     visit.group("window", self.window);
     visit(self.window_frames, {"window_frames", "", "frames solved together; 1 for one by one", 1, 50});
+    visit.group("rig", self.rig);
     visit.group("keyframe", self.keyframe);
     visit.group("state", self.state);
   }

@@ -88,6 +88,11 @@ bool Tracker::measure_pose(const Frame& frame, TrackResult& result, StageTimer& 
   if (options_.window_frames > 1) refine_window(map_, options_.window);
   motion_.add(frame.timestamp, map_.window.back().camera_from_world);
   status_ = TrackStatus::kTracking;
+  if (options_.rig.estimate && ++frames_since_rig_check_ >= options_.window_frames &&
+      options_.window_frames > 2) {
+    frames_since_rig_check_ = 0;
+    map_.disparity_offset = rig_monitor_.update(map_, options_.window, options_.rig);
+  }
   timer.end(&StageTimes::window);
   return true;
 }

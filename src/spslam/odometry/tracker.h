@@ -75,6 +75,8 @@ class Tracker {
   FarPoints far_points_;
   KeyframePolicy policy_;
   MotionModel motion_;
+  RigMonitor rig_monitor_;
+  int frames_since_rig_check_ = 0;
   ActiveMap map_;
   TrackStatus status_ = TrackStatus::kInitializing;
   Matrix6d motion_covariance_ =

@@ -21,7 +21,7 @@ SlamOptions feature_slam_options() {
   t.follow.max_missed = 5;
   t.window_frames = 1;
   t.landmarks.count = 1500;
-  t.landmarks.max_octave = 7;
+  t.landmarks.levels = t.orb.levels;
   t.motion.loss = Loss::kHuber;
   t.motion.loss_scale = 2.4;
   return options;

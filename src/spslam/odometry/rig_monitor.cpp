@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/odometry/rig_monitor.h"
+
+#include "spslam/base/log.h"
+#include "spslam/odometry/frame_problem.h"
+
+namespace spslam {
+namespace {
+
+constexpr double kOnlyConstant =
+    1e8;  // 1/px^2; holds the other coefficients at zero: they are not told apart from depth
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double believable_mean(const std::deque<double>& estimates, double scatter, double floor) {
+  if (estimates.empty()) return 0;
+  const double centre = median({estimates.begin(), estimates.end()});
+  double squares = 3 * scatter * scatter;
+  for (const double estimate : estimates) squares += (estimate - centre) * (estimate - centre);
+  const auto count = static_cast<double>(estimates.size());
+  const double variance = squares / (count + 2) / count + floor * floor;
+  return centre == 0 ? 0 : centre * std::max(0.0, 1 - variance / (centre * centre));
+}
+
+DisparityOffset RigMonitor::update(const ActiveMap& map, const SolverOptions& solver,
+                                   const RigOptions& options) {
+  // In a turn other errors of the calibration, of the focal length say, look like an offset.
+  const Eigen::Matrix3d turn = map.window.back().camera_from_world.rotation *
+                               map.window.front().camera_from_world.rotation.transpose();
+  if (so3_log(turn).norm() * 180 / M_PI > options.max_rotation) return map.disparity_offset;
+  DisparityOffset offset;
+  offset.coefficients = map.disparity_offset.coefficients;
+  offset.prior_information.diagonal() << 1e-6, kOnlyConstant, kOnlyConstant, kOnlyConstant;
+  offset.fixed = false;
+  // Offset and scale of the depths are nearly one direction: the solver must go all the way.
+  SolverOptions patient = solver;
+  patient.iterations = 50;
+  patient.relative_decrease = 1e-7;
+  const SolveSummary summary = solve_for_offset(map, patient, offset);
+  const double information = summary.offset_information(0, 0);
+  if (summary.status != SolveStatus::kFailed &&
+      information * options.window_scatter * options.window_scatter > 1) {
+    estimates_.push_back(offset.coefficients[0]);
+    if (static_cast<int>(estimates_.size()) > options.memory) estimates_.pop_front();
+  }
+  DisparityOffset believed;
+  believed.coefficients[0] = believable_mean(estimates_, options.window_scatter, options.floor);
+  spdlog::debug("disparity offset of this window {:.3f} px, believed {:.3f} px", offset.coefficients[0],
+                believed.coefficients[0]);
+  if (!has_warned_ && std::abs(believed.coefficients[0]) > options.warn) {
+    spdlog::warn(
+        "the rig adds {:.2f} px to its disparities: it is being corrected, but the rig should be calibrated "
+        "anew",
+        believed.coefficients[0]);
+    has_warned_ = true;
+  }
+  return believed;
+}
+
+}  // namespace spslam
