@@ -162,8 +162,7 @@ Result run(const std::vector<Prepared>& frames, const Method& m, const Settings&
 void report_summary(const std::string& sequence, const std::vector<Method>& methods,
                     const std::vector<Result>& results) {
   fmt::print(
-      "\n## {}\n\n| method | keypoints a frame | measured % | row offset median px | stage ms (least, "
-      "median) |",
+      "\n## {}\n\n| method | keypoints a frame | measured % | row offset median px | CPU ms of the stage |",
       sequence);
   fmt::print(" statuses |\n|---|---|---|---|---|---|\n");
   for (std::size_t i = 0; i < methods.size(); ++i) {
