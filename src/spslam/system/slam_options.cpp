@@ -19,6 +19,8 @@ SlamOptions feature_slam_options() {
   t.follow.identity = Identity::kDescriptor;
   t.follow.align = false;
   t.follow.max_missed = 5;
+  t.keyframe.lost_of_keyframe = 0.7;
+  t.keyframe.max_frames = 20;
   t.window_frames = 1;
   t.landmarks.count = 1500;
   t.landmarks.levels = t.orb.levels;
