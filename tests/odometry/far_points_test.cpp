@@ -66,8 +66,11 @@ TEST(FarPoints, NearOnesAreNotTouched) {
   FarPoints points;
   points.weigh(scene.world.map, scene.predicted, {7}, {}, kept);
   std::size_t near = 0;
-  for (const Sighting& s : kept)
-    if (!is_far(scene, s)) ++near, EXPECT_EQ(s.weight, 1);
+  for (const Sighting& s : kept) {
+    if (is_far(scene, s)) continue;
+    ++near;
+    EXPECT_EQ(s.weight, 1);
+  }
   EXPECT_EQ(static_cast<std::ptrdiff_t>(near),
             static_cast<std::ptrdiff_t>(scene.sightings.size()) - far_count(scene, scene.sightings));
 }

@@ -161,7 +161,7 @@ TEST(AlignDisparity, MeasuresThePlane) {
   for (int y = 40; y < 200; y += 20)
     for (int x = 60; x < 280; x += 20, ++asked)
       if (const auto disparity =
-              align_disparity(frame, {static_cast<float>(x), static_cast<float>(y)}, truth + 1.2, {}))
+              align_disparity(frame, {static_cast<float>(x), static_cast<float>(y)}, truth + 1.2, 1, {}))
         squares += (*disparity - truth) * (*disparity - truth), ++count;
   EXPECT_GT(count, 0.9 * asked);
   EXPECT_LT(std::sqrt(squares / count), kDisparityError);

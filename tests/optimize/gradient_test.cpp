@@ -122,8 +122,9 @@ TEST_P(EveryLoss, GradientWithFixedParts) {
 
 INSTANTIATE_TEST_SUITE_P(Gradient, EveryLoss,
                          testing::Values(Loss::kNone, Loss::kHuber, Loss::kPseudoHuber, Loss::kCauchy),
-                         [](const auto& info) {
-                           std::string name = option_names(info.param)[static_cast<std::size_t>(info.param)];
+                         [](const auto& tested) {
+                           std::string name =
+                               option_names(tested.param)[static_cast<std::size_t>(tested.param)];
                            std::erase(name, '-');
                            return name;
                          });

@@ -41,7 +41,8 @@ LandmarkVariable draw_landmark(const SyntheticOptions& options, const StereoRig&
 bool is_seen(const StereoRig& rig, const Eigen::Vector3d& x) {
   if (x.z() < 1e-3) return false;
   const Eigen::Vector2d p = rig.project(x);
-  return p.x() >= kMargin && p.y() >= kMargin && p.x() <= rig.width - kMargin && p.y() <= rig.height - kMargin;
+  return p.x() >= kMargin && p.y() >= kMargin && p.x() <= rig.width - kMargin &&
+         p.y() <= rig.height - kMargin;
 }
 
 Eigen::Vector3d true_measurement(const Problem& problem, const LandmarkVariable& landmark,

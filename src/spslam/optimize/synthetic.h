@@ -15,15 +15,15 @@ struct SyntheticOptions {
   int cameras = 6;
   int hosts = 1;  // the first cameras, which see points first; bearings are in their cameras
   int points = 200;
-  double step = 0.2;                       // m between cameras, forward and a little sideways
-  double turn = 0.01;                      // rad between cameras, about all axes in turn
-  double nearest = 2, farthest = 20;       // m along z, depths of near points (uniform inverse depth)
-  double far_share = 0.3;                  // of the points at infinity: inverse depth 0
-  double position_sigma = 0.3;             // px, 1 sigma, of u and of v
-  double disparity_sigma = 0.3;            // px, 1 sigma; also where the true disparity is 0
-  double outlier_share = 0;                // of the observations that are off by 20 to 60 px
-  bool noise = true;                       // false: exact observations, with the same weights
-  Vector4d offset = Vector4d::Zero();      // px, disparity offset of the rig
+  double step = 0.2;                   // m between cameras, forward and a little sideways
+  double turn = 0.01;                  // rad between cameras, about all axes in turn
+  double nearest = 2, farthest = 20;   // m along z, depths of near points (uniform inverse depth)
+  double far_share = 0.3;              // of the points at infinity: inverse depth 0
+  double position_sigma = 0.3;         // px, 1 sigma, of u and of v
+  double disparity_sigma = 0.3;        // px, 1 sigma; also where the true disparity is 0
+  double outlier_share = 0;            // of the observations that are off by 20 to 60 px
+  bool noise = true;                   // false: exact observations, with the same weights
+  Vector4d offset = Vector4d::Zero();  // px, disparity offset of the rig
   std::uint64_t seed = 1;
 };
 
