@@ -69,6 +69,7 @@ cv::Mat draw_elements(const cv::Mat& grey, const SegmentationResult& result, Seg
   }
   cv::Mat picture;
   cv::vconcat(rows, picture);
+  for (int y = grey.rows; y < picture.rows; y += grey.rows) picture.row(y).setTo(128);
   return picture;
 }
 
