@@ -13,49 +13,53 @@ namespace {
 
 constexpr int kStride = 16;
 
+// Rows are kStride wide whatever the patch's size, so that the loops have a fixed length; `inside` is 0 in
+// the padding.
 struct WholePatch {
-  alignas(32) std::int16_t value[15 * kStride] = {};  // deviation from the mean, rounded; 0 in the padding
-  int size = 0;
+  alignas(32) std::int16_t value[15 * kStride] = {};  // deviation from the mean, rounded
+  alignas(32) std::int16_t inside[kStride] = {};
+  int size = 0, sum = 0;  // sum of the values: not quite 0, for the mean was rounded
   float energy = 0;
 };
 
 bool cut_patch(const cv::Mat& level, int x, int y, int radius, WholePatch& out) {
   if (x < 0 || y < 0 || x >= level.cols || y >= level.rows) return false;
   out.size = 2 * radius + 1;
-  int sum = 0;
-  const auto pixel = [&](int r, int c) {
-    return level.data[static_cast<std::ptrdiff_t>(level.step) * (y - radius + r) + x - radius + c];
+  const auto row = [&](int r) {
+    return level.data + static_cast<std::ptrdiff_t>(level.step) * (y - radius + r) + x - radius;
   };
+  int sum = 0;
   for (int r = 0; r < out.size; ++r)
-    for (int c = 0; c < out.size; ++c) sum += pixel(r, c);
+    for (int c = 0; c < out.size; ++c) sum += row(r)[c];
   const int mean = (sum + out.size * out.size / 2) / (out.size * out.size);
+  for (int c = 0; c < out.size; ++c) out.inside[c] = 1;
   for (int r = 0; r < out.size; ++r)
     for (int c = 0; c < out.size; ++c) {
-      const int v = pixel(r, c) - mean;
+      const int v = row(r)[c] - mean;
       out.value[r * kStride + c] = static_cast<std::int16_t>(v);
+      out.sum += v;
       out.energy += static_cast<float>(v * v);
     }
   return out.energy > static_cast<float>(4 * out.size * out.size);
 }
 
-// Normalized correlation of the patch with the image around (x, y).
+// Normalized correlation of the patch with the image around a place, `corner` being its first pixel.
 SPSLAM_SIMD float correlate(const WholePatch& patch, const unsigned char* corner, std::ptrdiff_t step) {
-  int cross = 0, sum = 0, square = 0, patch_sum = 0;
+  int cross = 0, sum = 0, square = 0;
   for (int r = 0; r < patch.size; ++r) {
     const unsigned char* row = corner + r * step;
     const std::int16_t* p = patch.value + r * kStride;
-    for (int c = 0; c < patch.size; ++c) {
-      const int v = row[c], t = p[c];
-      cross += v * t;
+    for (int c = 0; c < kStride; ++c) {
+      const auto v = static_cast<std::int16_t>(row[c] * patch.inside[c]);
+      cross += v * p[c];
       sum += v;
       square += v * v;
-      patch_sum += t;
     }
   }
   const auto count = static_cast<float>(patch.size * patch.size);
   const float mean = static_cast<float>(sum) / count;
   const float energy = static_cast<float>(square) - mean * static_cast<float>(sum);
-  return (static_cast<float>(cross) - mean * static_cast<float>(patch_sum)) /
+  return (static_cast<float>(cross) - mean * static_cast<float>(patch.sum)) /
          std::sqrt(std::max(energy, 1.0F) * patch.energy);
 }
 

@@ -105,15 +105,15 @@ MotionEstimate estimate_motion(const ActiveMap& map, const std::vector<Sighting>
   return newest_estimate(summary, problem.poses[pose].camera_from_world);
 }
 
-MotionEstimate refine_window(ActiveMap& map, const SolverOptions& options) {
+bool refine_window(ActiveMap& map, const SolverOptions& options) {
   ProblemBuilder builder(map, map.landmarks.size());
   add_window(map, Hosts::kAll, builder);
   Problem& problem = builder.finish();
-  if (problem.observations.size() < 3) return {};
-  const SolveSummary summary = solve(problem, options, true);
-  const MotionEstimate estimate =
-      newest_estimate(summary, problem.poses[map.window.size() - 1].camera_from_world);
-  if (!estimate.solved) return estimate;
+  if (problem.observations.size() < 3) return false;
+  const SolveSummary summary = solve(problem, options);
+  bool solved = summary.status != SolveStatus::kFailed;
+  for (const PoseVariable& pose : problem.poses) solved = solved && pose.camera_from_world.is_finite();
+  if (!solved) return false;
   for (std::size_t f = 0; f < map.window.size(); ++f) {
     WindowFrame& frame = map.window[f];
     frame.camera_from_world = problem.poses[f].camera_from_world;
@@ -122,7 +122,7 @@ MotionEstimate refine_window(ActiveMap& map, const SolverOptions& options) {
   for (std::size_t i = 0; i < map.landmarks.size(); ++i)
     if (const int place = builder.places()[i]; place >= 0)
       map.landmarks[i].landmark.inverse_depth = problem.landmarks[place].inverse_depth;
-  return estimate;
+  return true;
 }
 
 SolveSummary solve_for_offset(const ActiveMap& map, const SolverOptions& options, DisparityOffset& offset) {

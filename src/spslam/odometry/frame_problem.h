@@ -22,8 +22,8 @@ MotionEstimate estimate_motion(const ActiveMap& map, const std::vector<Sighting>
                                const SolverOptions& options);
 
 // Solves for the poses of all frames of the window but the first and for the inverse depths of all that they
-// see. Returns the newest frame's estimate; the map's poses and inverse depths are replaced by the solution.
-MotionEstimate refine_window(ActiveMap& map, const SolverOptions& options);
+// see. The map's are replaced by the solution; false, and nothing is changed, if there is none.
+bool refine_window(ActiveMap& map, const SolverOptions& options);
 
 // The window with its disparity offset free; nothing but `offset` (in and out) is changed.
 SolveSummary solve_for_offset(const ActiveMap& map, const SolverOptions& options, DisparityOffset& offset);
