@@ -127,7 +127,7 @@ TEST(FollowPatches, NothingIsFoundWhereThereIsNothing) {
   const test::PlaneScene scene(4), other(5);
   const ActiveMap map = grid_map(scene);
   const std::vector<Sighting> strange = follow_patches(map, all_of(map), other.frame(SE3{}), SE3{}, 2, {});
-  EXPECT_LT(static_cast<double>(strange.size()), 0.05 * static_cast<double>(map.landmarks.size()));
+  EXPECT_LT(static_cast<double>(strange.size()), 0.1 * static_cast<double>(map.landmarks.size()));
   Frame blank;
   blank.left = blank.right = AlignmentPyramid(cv::Mat(240, 320, CV_8UC1, cv::Scalar(120)), 4);
   EXPECT_TRUE(follow_patches(map, all_of(map), blank, SE3{}, 2, {}).empty());
