@@ -105,20 +105,18 @@ TEST(RefineWindow, FindsTheTruthOfExactSightings) {
     world.map.landmarks[l].landmark.inverse_depth = moved.landmarks[l].inverse_depth;
   SolverOptions solver;
   solver.iterations = 100, solver.relative_decrease = 0;
-  const MotionEstimate newest = refine_window(world.map, solver);
-  EXPECT_TRUE(newest.solved);
+  EXPECT_TRUE(refine_window(world.map, solver));
   for (std::size_t f = 0; f < world.map.window.size(); ++f)
     EXPECT_LT(error_of(world.map.window[f].camera_from_world, world.truth.poses[f].camera_from_world).norm(),
               1e-6);
   EXPECT_EQ(world.map.hosts.at({1}).camera_from_world.matrix3x4(),
             world.map.window[1].camera_from_world.matrix3x4());
-  EXPECT_EQ(newest.camera_from_world.matrix3x4(), world.map.window[5].camera_from_world.matrix3x4());
 }
 
-TEST(RefineWindow, AnEmptyWindowIsNoMotion) {
+TEST(RefineWindow, AnEmptyWindowHasNoSolution) {
   ActiveMap map;
   map.rig = test::make_synthetic_map({}).map.rig;
-  EXPECT_FALSE(refine_window(map, {}).solved);
+  EXPECT_FALSE(refine_window(map, {}));
 }
 
 }  // namespace
