@@ -6,57 +6,18 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
-#include <opencv2/imgproc.hpp>
 
-#include "spslam/base/random.h"
+#include "alignment/waves.h"
 
 namespace spslam {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 120;
-
-// A sum of sinusoids, so that it can be sampled anywhere exactly; shortest wavelength about 7 px.
-class Texture {
- public:
-  explicit Texture(std::uint64_t seed) {
-    Random random(seed);
-    for (Wave& wave : waves_) {
-      const double length = random.uniform(7, 40), angle = random.uniform(0, 2 * M_PI);
-      wave = {2 * M_PI / length * std::cos(angle), 2 * M_PI / length * std::sin(angle), random.uniform(0, 2 * M_PI)};
-    }
-  }
-  double operator()(double x, double y) const {
-    double sum = 0;
-    for (const Wave& wave : waves_) sum += std::sin(wave.kx * x + wave.ky * y + wave.phase);
-    return sum;
-  }
-
- private:
-  struct Wave {
-    double kx, ky, phase;
-  };
-  std::array<Wave, 24> waves_;
-};
-
-// texture(map(pixel)), with gain, offset and noise.
-cv::Mat render(const Texture& texture, const std::function<Eigen::Vector2d(double, double)>& map, double gain = 8,
-               double offset = 128, double noise = 0, std::uint64_t seed = 99) {
-  cv::Mat image(kHeight, kWidth, CV_8UC1);
-  Random random(seed);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      const Eigen::Vector2d p = map(x, y);
-      image.at<uchar>(y, x) = cv::saturate_cast<uchar>(offset + gain * texture(p.x(), p.y()) + noise * random.normal());
-    }
-  return image;
-}
-
-const auto kUnmoved = [](double x, double y) { return Eigen::Vector2d(x, y); };
-
 struct Errors {
   std::vector<double> x, y, normalized;
   int failed = 0;
-  static double mean(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()); }
+  static double mean(const std::vector<double>& v) {
+    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+  }
   static double rms(const std::vector<double>& v) {
     return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0) / static_cast<double>(v.size()));
   }
@@ -100,7 +61,8 @@ INSTANTIATE_TEST_SUITE_P(Pixels, Shifts, testing::Values(0.0, 0.25, 0.5, -0.3, 1
 TEST(PatchAligner, VarianceIsThatOfTheErrors) {
   const Texture texture(5);
   const auto moved = [&](double x, double y) { return Eigen::Vector2d(x - 0.4, y); };
-  const AlignmentPyramid from(render(texture, kUnmoved, 3, 128, 3), 3), to(render(texture, moved, 3, 128, 3, 100), 3);
+  const AlignmentPyramid from(render(texture, kUnmoved, 3, 128, 3), 3),
+      to(render(texture, moved, 3, 128, 3, 100), 3);
   const Errors errors = align_grid(from, to, {0.4, 0}, {0, 0});
   EXPECT_GT(Errors::rms(errors.normalized), 0.5);
   EXPECT_LT(Errors::rms(errors.normalized), 2.0);

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// What a user of the installed library writes: a rig, a motion, an option set by name, an error that is
-// caught.
+// What a user of the installed library writes: a rig, a motion, and a system that is told of a frame it
+// cannot use.
 
-#include <spslam/base/se3.h>
-#include <spslam/camera/stereo_rig.h>
+#include <spslam/spslam.h>
 
 #include <cstdio>
 
@@ -23,5 +22,9 @@ int main() {
   const spslam::SE3 there = spslam::SE3::exp(twist);
   const double error = (there * there.inverse()).log().norm();
   std::printf("depth at 2.88 px: %.3f m, error of a motion and its inverse: %g\n", rig.depth(2.88), error);
+  spslam::Slam slam(rig);
+  const spslam::TrackResult result = slam.track(0.0, cv::Mat(), cv::Mat());
+  slam.finish();
+  if (result.status != spslam::TrackStatus::kInitializing || result.reason.empty()) return 1;
   return rig.depth(2.88) > 9.999 && rig.depth(2.88) < 10.001 && error < 1e-12 ? 0 : 1;
 }
