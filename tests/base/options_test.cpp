@@ -53,22 +53,27 @@ TEST(Options, ListsAndSetsEveryField) {
   set_option(options, "weight", "0.5");
   std::vector<std::string> values;
   for (const OptionText& option : list_options(options)) values.push_back(option.key + "=" + option.value);
-  EXPECT_THAT(values, testing::ElementsAre("enabled=false", "weight=0.5", "inner.radius=5", "inner.shape=box"));
+  EXPECT_THAT(values,
+              testing::ElementsAre("enabled=false", "weight=0.5", "inner.radius=5", "inner.shape=box"));
 }
 
 TEST(Options, UnknownKeyNamesTheNearest) {
   Outer options;
-  EXPECT_THAT(message_of([&] { set_option(options, "iner.radus", "5"); }), testing::HasSubstr("'inner.radius'"));
+  EXPECT_THAT(message_of([&] { set_option(options, "iner.radus", "5"); }),
+              testing::HasSubstr("'inner.radius'"));
   EXPECT_THAT(message_of([&] { set_option(options, "radius", "5"); }), testing::HasSubstr("'inner.radius'"));
 }
 
 TEST(Options, WrongValueNamesFieldAndConstraint) {
   Outer options;
-  EXPECT_THAT(message_of([&] { set_option(options, "inner.radius", "5x"); }), testing::HasSubstr("whole number"));
-  EXPECT_THAT(message_of([&] { set_option(options, "inner.shape", "ring"); }), testing::HasSubstr("disc, box"));
+  EXPECT_THAT(message_of([&] { set_option(options, "inner.radius", "5x"); }),
+              testing::HasSubstr("whole number"));
+  EXPECT_THAT(message_of([&] { set_option(options, "inner.shape", "ring"); }),
+              testing::HasSubstr("disc, box"));
   options.inner.radius = 10;
-  EXPECT_THAT(message_of([&] { check_options(options); }),
-              testing::AllOf(testing::HasSubstr("inner.radius = 10"), testing::HasSubstr("between 1 and 9 px")));
+  EXPECT_THAT(
+      message_of([&] { check_options(options); }),
+      testing::AllOf(testing::HasSubstr("inner.radius = 10"), testing::HasSubstr("between 1 and 9 px")));
   options.inner.radius = 3;
   options.weight = std::nan("");
   EXPECT_THROW(check_options(options), OptionError);

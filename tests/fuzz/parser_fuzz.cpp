@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Feeds bytes to the parser SPSLAM_PARSE (set by CMakeLists.txt). An InputError is an answer; anything else ends the fuzzer.
+// Feeds bytes to the parser SPSLAM_PARSE (set by CMakeLists.txt). An InputError is an answer; anything else
+// ends the fuzzer.
 
 #include <cstddef>
 #include <cstdint>

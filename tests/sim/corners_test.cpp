@@ -34,8 +34,9 @@ TEST(OpenWater, NothingIsNearerThanSixtyMetres) {
       const FrameTruth truth = simulator.truth(t);
       for (int y = 0; y < truth.depth.rows; ++y)
         for (int x = 0; x < truth.depth.cols; ++x)
-          if (truth.water.at<std::uint8_t>(y, x) == 0 && truth.depth.at<float>(y, x) > 0)
+          if (truth.water.at<std::uint8_t>(y, x) == 0 && truth.depth.at<float>(y, x) > 0) {
             ASSERT_GT(truth.depth.at<float>(y, x), 60) << "seed " << seed << " at " << t << " s";
+          }
     }
   }
 }

@@ -163,7 +163,8 @@ TEST_F(DatasetWriterTest, WhatCannotBeWrittenIsSaid) {
 
 TEST_F(DatasetWriterTest, StreamsAreWritten) {
   simulate_dataset(request_);
-  LineReader imu(read_text_file(request_.output / "imu.csv"), "imu.csv");
+  const std::string text = read_text_file(request_.output / "imu.csv");
+  LineReader imu(text, "imu.csv");
   int samples = 0;
   for (; imu.next(); ++samples) EXPECT_EQ(imu.fields(',').size(), 7U);
   EXPECT_EQ(samples, 31);

@@ -32,7 +32,8 @@ TEST(Water, SlopesAreTheSumOfTheWaves) {
 }
 
 TEST(Water, ShortWavesObeyGravityAndSurfaceTension) {
-  for (const Water::Wave& wave : Water({}, {}, 5).waves()) {
+  const Water water({}, {}, 5);
+  for (const Water::Wave& wave : water.waves()) {
     const double k = 2 * M_PI * std::hypot(wave.k_x, wave.k_y), omega = 2 * M_PI * wave.frequency;
     EXPECT_NEAR(omega * omega, 9.81 * k + 7.3e-5 * k * k * k, 1e-6 * omega * omega);
   }
@@ -42,8 +43,9 @@ TEST(Water, WindMakesItRougher) {
   const auto steepness = [](double wind) {
     WaterOptions options;
     options.wind = wind;
+    const Water water(options, {}, 5);
     double sum = 0;
-    for (const Water::Wave& wave : Water(options, {}, 5).waves())
+    for (const Water::Wave& wave : water.waves())
       sum += 0.5 * (wave.slope_x * wave.slope_x + wave.slope_y * wave.slope_y);
     return std::sqrt(sum);
   };

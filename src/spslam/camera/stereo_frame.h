@@ -11,8 +11,8 @@ namespace spslam {
 struct StereoFrame {
   double timestamp = 0;  // s
   cv::Mat left, right;   // CV_8UC1, of the rig's size
-  // Why the pair cannot be used ("left image truncated: ..."), empty for a good pair. A bad pair is a frame all the same:
-  // it has a time and gets a status and a pose.
+  // Why the pair cannot be used ("left image truncated: ..."), empty for a good pair. A bad pair is a frame
+  // all the same: it has a time and gets a status and a pose.
   std::string problem;
 };
 

@@ -10,12 +10,13 @@
 namespace spslam {
 
 struct StereoRig {
-  double fx = 0, fy = 0;    // px
-  double cx = 0, cy = 0;    // px, the same in both eyes
-  double baseline = 0;      // m, right camera at +x
+  double fx = 0, fy = 0;      // px
+  double cx = 0, cy = 0;      // px, the same in both eyes
+  double baseline = 0;        // m, right camera at +x
   int width = 0, height = 0;  // px
 
-  // Throws InputError unless focal lengths and baseline are positive and the principal point lies in the image.
+  // Throws InputError unless focal lengths and baseline are positive and the principal point lies in the
+  // image.
   void check() const;
 
   double disparity_per_inverse_depth() const { return fx * baseline; }  // px m

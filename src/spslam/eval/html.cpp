@@ -48,12 +48,13 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
-std::string html_table(const std::vector<std::vector<std::string>>& rows) {
+std::string html_table(const std::vector<std::vector<std::string>>& rows, bool has_head) {
   std::string html = "<table>\n";
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    html += "<tr>";
+    const bool head_row = has_head && r == 0;
+    html += head_row ? "<tr class=\"head\">" : "<tr>";
     for (std::size_t c = 0; c < rows[r].size(); ++c) {
-      const bool head = r == 0 || c == 0;
+      const bool head = head_row || c == 0;
       html += (head ? "<th>" : "<td>") + html_escaped(rows[r][c]) + (head ? "</th>" : "</td>");
     }
     html += "</tr>\n";

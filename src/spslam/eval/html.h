@@ -13,8 +13,8 @@ namespace spslam {
 std::string html_escaped(std::string_view text);
 // RFC 4648, with padding.
 std::string base64(std::string_view bytes);
-// A table of text cells; the first row is its head, the first column of each row names it. Columns after it
-// are aligned as numbers.
-std::string html_table(const std::vector<std::vector<std::string>>& rows);
+// A table of text cells; the first column of each row names it, the first row is its head unless has_head is
+// false. Columns after the first are aligned as numbers.
+std::string html_table(const std::vector<std::vector<std::string>>& rows, bool has_head = true);
 
 }  // namespace spslam

@@ -28,12 +28,13 @@ svg{width:100%;height:auto;display:block}
 .line{fill:none;stroke-width:1.6;stroke-linejoin:round}
 .truth{stroke:var(--truth)}.estimate{stroke:var(--estimate)}.near{stroke:var(--near)}.far{stroke:var(--far)}
 .line.truth{stroke-width:3;stroke-opacity:.6}.dot{stroke:none}.dot.truth{fill:var(--truth)}.dot.estimate{fill:var(--estimate)}
-.lost{fill:var(--far);fill-opacity:.22}.other{fill:#d29922;fill-opacity:.22}
+.lost{fill:var(--far);fill-opacity:.22}.coasting{fill:#d29922;fill-opacity:.25}.initializing{fill:var(--dim);fill-opacity:.2}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums}th,td{padding:4px 14px 4px 0;text-align:right;white-space:nowrap}
-th:first-child{text-align:left;font-weight:500}tr:first-child th{color:var(--dim);font-weight:500;border-bottom:1px solid var(--rule)}
+th:first-child{text-align:left;font-weight:500}tr.head th{color:var(--dim);font-weight:500;border-bottom:1px solid var(--rule)}
 .images{display:grid;grid-template-columns:repeat(auto-fit,minmax(300px,1fr));gap:14px}figure{margin:0}img{width:100%;border-radius:6px}
 figcaption{color:var(--dim);font-size:13px}pre{font-size:12px;overflow-x:auto}
-.two{display:grid;grid-template-columns:repeat(auto-fit,minmax(430px,1fr));gap:0 14px}
+.two,.three{display:grid;gap:0 14px}.two{grid-template-columns:repeat(auto-fit,minmax(430px,1fr))}
+.three{grid-template-columns:repeat(auto-fit,minmax(310px,1fr))}
 )";
 
 std::string section(const std::string& title, const std::string& body) {
@@ -75,10 +76,18 @@ Chart sized_chart(std::string title, std::string x_label, std::string y_label, i
   return chart;
 }
 
-std::vector<Eigen::Vector2d> seen_from_above(const std::vector<SE3>& poses, const Eigen::Matrix3d& level) {
+std::vector<Eigen::Vector2d> seen_from_above(const std::vector<SE3>& poses, const Eigen::Matrix3d& page) {
   std::vector<Eigen::Vector2d> points;
-  for (const SE3& pose : poses) points.emplace_back((level * pose.translation).head<2>());
+  for (const SE3& pose : poses) points.emplace_back((page * pose.translation).head<2>());
   return points;
+}
+
+// The page is wider than high: a run that is longer up the page than across is turned to the right.
+Eigen::Matrix3d turned_to_fit(const std::vector<SE3>& poses, const Eigen::Matrix3d& level) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& point : seen_from_above(poses, level)) box.extend(point);
+  if (box.sizes().y() <= box.sizes().x()) return level;
+  return so3_exp({0, 0, -M_PI / 2}) * level;
 }
 
 std::string top_view(const ReportInput& input) {
@@ -89,22 +98,22 @@ std::string top_view(const ReportInput& input) {
   else
     for (const StampedPose& pose : input.estimate) estimate.push_back(pose.world_from_camera);
   if (estimate.empty()) return "";
+  const std::vector<SE3>& shown = truth.empty() ? estimate : truth;
   const bool level_already = input.evaluation && input.evaluation->options.planar;
-  const Eigen::Matrix3d level =
-      level_from_world(level_already ? Eigen::Vector3d(0, 0, 1)
-                                     : up_direction(truth.empty() ? estimate : truth, UpAxis::kAuto));
-  Chart chart = sized_chart("The trajectory from above", "m", "m", 1000, 520);
+  const Eigen::Vector3d up = level_already ? Eigen::Vector3d(0, 0, 1) : up_direction(shown, UpAxis::kAuto);
+  const Eigen::Matrix3d page = turned_to_fit(shown, level_from_world(up));
+  Chart chart = sized_chart("The trajectory from above", "m", "m", 1000, 420);
   chart.equal_scales = true;
-  if (!truth.empty()) chart.series.push_back({"ground truth", "truth", seen_from_above(truth, level)});
+  if (!truth.empty()) chart.series.push_back({"ground truth", "truth", seen_from_above(truth, page)});
   chart.series.push_back(
-      {"estimate (circle: start, square: end)", "estimate", seen_from_above(estimate, level)});
+      {"estimate (circle: start, square: end)", "estimate", seen_from_above(estimate, page)});
   return svg_chart(chart);
 }
 
 std::string error_chart(const char* title, const char* unit, const std::vector<double>& timestamps,
                         const std::vector<double>& errors) {
   if (errors.empty()) return "";
-  Chart chart = sized_chart(title, "s", unit, 520, 230);
+  Chart chart = sized_chart(title, "s", unit, 380, 230);
   ChartSeries series{title, "estimate", {}};
   for (std::size_t i = 0; i < errors.size(); ++i)
     series.points.emplace_back(timestamps[i] - timestamps.front(), errors[i]);
@@ -157,7 +166,8 @@ std::vector<ChartBand> state_bands(const std::vector<ReportFrame>& frames) {
     if (!open.empty()) bands.back().to = t;
     if (frame.state == open) continue;
     open = frame.state == "tracking" ? "" : frame.state;
-    if (!open.empty()) bands.push_back({t, t, open, open == "lost" ? "lost" : "other"});
+    if (!open.empty())
+      bands.push_back({t, t, open, open == "lost" || open == "coasting" ? open : "initializing"});
   }
   return bands;
 }
@@ -195,9 +205,9 @@ std::string timing_table(const std::vector<ReportStage>& stages) {
 }
 
 std::string facts_table(const std::vector<std::pair<std::string, std::string>>& facts) {
-  std::vector<std::vector<std::string>> rows = {{"", ""}};
+  std::vector<std::vector<std::string>> rows;
   for (const auto& [name, value] : facts) rows.push_back({name, value});
-  return facts.empty() ? "" : html_table(rows);
+  return facts.empty() ? "" : html_table(rows, false);
 }
 
 }  // namespace

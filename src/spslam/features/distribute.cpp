@@ -61,21 +61,22 @@ struct Cells {
   int of(const Corner& corner) const { return row_of_y[corner.y] * columns + column_of_x[corner.x]; }
 };
 
-// Drops from each cell what lies behind its `keep` best corners (all of equal score stay), to spare the work
-// on them.
+// Drops from each cell what lies behind its `keep` best corners, to spare the work on them. Scores are
+// compared in steps of four, which keeps the histograms of all cells small; all of the last step stay.
 std::vector<Corner> best_of_cells(std::span<const Corner> corners, const Cells& cells, int keep) {
-  std::vector<std::array<int, 256>> histogram(cells.count(), std::array<int, 256>{});
-  for (const Corner& corner : corners) ++histogram[cells.of(corner)][corner.score];
+  using Histogram = std::array<int, 64>;
+  std::vector<Histogram> histogram(cells.count(), Histogram{});
+  for (const Corner& corner : corners) ++histogram[cells.of(corner)][corner.score / 4];
   std::vector<int> lowest(cells.count(), 0);
   for (int i = 0; i < cells.count(); ++i) {
-    int found = 0, score = 255;
-    while (score > 0 && found + histogram[i][score] < keep) found += histogram[i][score--];
-    lowest[i] = score;
+    int found = 0, step = 63;
+    while (step > 0 && found + histogram[i][step] < keep) found += histogram[i][step--];
+    lowest[i] = step;
   }
   std::vector<Corner> best;
   best.reserve(corners.size());
   for (const Corner& corner : corners) {
-    if (corner.score >= lowest[cells.of(corner)]) best.push_back(corner);
+    if (corner.score / 4 >= lowest[cells.of(corner)]) best.push_back(corner);
   }
   return best;
 }

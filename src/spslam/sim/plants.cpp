@@ -72,7 +72,8 @@ void add_tree(Mesh& mesh, const TreeShape& tree, Random& random) {
   const int per_clump = std::max(4, tree.leaves / clumps);
   for (int i = 0; i < clumps; ++i) {
     const Vector3f out = direction(random) * std::cbrt(uniform(random, 0.1, 1));
-    const Vector3f at = heart + Vector3f(out.x() * tree.crown, out.y() * tree.crown, out.z() * 0.3F * tree.height);
+    const Vector3f at =
+        heart + Vector3f(out.x() * tree.crown, out.y() * tree.crown, out.z() * 0.3F * tree.height);
     if (i % 3 == 0) {
       const Vector3f branching = fork + (top - fork) * uniform(random, 0.0, 0.6);
       add_bar(mesh, branching, at, 0.32F * girth, 0.08F * girth, 5, bark);

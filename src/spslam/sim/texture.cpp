@@ -36,7 +36,9 @@ float value_noise(float x, float y, int period, std::uint32_t seed) {
     const int rest = static_cast<int>(cell) % period;
     return static_cast<std::uint32_t>(rest < 0 ? rest + period : rest);
   };
-  const auto next = [period](std::uint32_t i) { return i + 1 == static_cast<std::uint32_t>(period) ? 0U : i + 1; };
+  const auto next = [period](std::uint32_t i) {
+    return i + 1 == static_cast<std::uint32_t>(period) ? 0U : i + 1;
+  };
   const std::uint32_t i = wrap(fx), j = wrap(fy), i1 = next(i), j1 = next(j);
   const auto value = [seed](std::uint32_t p, std::uint32_t q) {
     return 2 * unit(mix(p * 0x9e3779b1U ^ q * 0x85ebca77U ^ seed)) - 1;

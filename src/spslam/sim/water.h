@@ -36,8 +36,8 @@ class Water {
   // The surface at one instant.
   class Surface {
    public:
-    // Slopes dz/dx, dz/dy at the points (x, y), m, where a pixel covers `footprint` m. Waves shorter than that are damped,
-    // as a sensor averages over them.
+    // Slopes dz/dx, dz/dy at the points (x, y), m, where a pixel covers `footprint` m. Waves shorter than
+    // that are damped, as a sensor averages over them.
     void slopes(const Lanes& x, const Lanes& y, const Lanes& footprint, Lanes& slope_x, Lanes& slope_y) const;
 
    private:
