@@ -125,7 +125,7 @@ std::string error_charts(const Evaluation& e) {
   std::vector<double> times;
   for (const AssociatedPose& pose : e.poses) times.push_back(pose.timestamp);
   const RpeResult& rpe = e.rpe_per_second;
-  return "<div class=\"two\">" +
+  return "<div class=\"three\">" +
          section("Position error over time", error_chart("ATE", "m", times, e.ate.errors)) +
          section("Relative error per second",
                  error_chart("RPE, translation", "m/s", rpe.timestamps, rpe.translation_errors)) +
