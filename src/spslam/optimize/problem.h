@@ -27,8 +27,8 @@ struct PoseVariable {
 };
 
 struct LandmarkVariable {
-  int host = 0;              // index of a pose
-  Eigen::Vector3d bearing;   // (x, y, 1) in the host camera
+  int host = 0;                                        // index of a pose
+  Eigen::Vector3d bearing = Eigen::Vector3d::UnitZ();  // (x, y, 1) in the host camera
   double inverse_depth = 0;  // 1/m along z; near or below 0: a direction without a depth
   // What is known of the inverse depth beside the observations: a Gaussian, information 0 for nothing.
   double prior_inverse_depth = 0, prior_information = 0;  // 1/m, m^2
