@@ -37,7 +37,8 @@ track() {  # SEQUENCE NAME [argument of `spslam run` ...]
 accuracy() {  # SEQUENCE NAME
   local run=$output/$2.1 truth=$data/$1/poses.txt
   if [ ! -f "$truth" ]; then
-    awk 'NR == 1 { x = $2; y = $3; z = $4 }
+    awk '/^#/ { next }
+         !started++ { x = $2; y = $3; z = $4 }
          { d = sqrt(($2 - x)^2 + ($3 - y)^2 + ($4 - z)^2); if (d > far) far = d }
          END { printf "%.4f - - 0\n", far }' "$run/trajectory_tum.txt"
     return
