@@ -17,9 +17,9 @@ namespace spslam {
 
 struct Landmark {
   LandmarkId id;
-  KeyframeId host;           // the keyframe it was first seen from; what follows is in its left camera
-  Eigen::Vector2f pixel;     // px
-  Eigen::Vector3d bearing;   // (x, y, 1)
+  KeyframeId host;  // the keyframe it was first seen from; what follows is in its left camera
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();     // px
+  Eigen::Vector3d bearing = Eigen::Vector3d::UnitZ();  // (x, y, 1)
   double inverse_depth = 0;  // 1/m along z; near or below 0: a direction without a depth
   double information = 0;    // m^2, of the inverse depth
   Region region = Region::kNear;
