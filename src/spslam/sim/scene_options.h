@@ -147,7 +147,7 @@ struct WaterOptions {
   double wind_direction = 60;
   double fetch = 150;
   double chop = 1.0;
-  double turbidity = 0.10;
+  double turbidity = 0.06;
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.wind, {"wind", "m/s", "wind at 10 m, makes the waves (JONSWAP)", 0.3, 15});
