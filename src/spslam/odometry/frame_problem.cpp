@@ -134,7 +134,7 @@ SolveSummary solve_for_offset(const ActiveMap& map, const SolverOptions& options
   // What earlier frames said of the inverse depths, they said under the offset of their time.
   for (LandmarkVariable& landmark : problem.landmarks) landmark.prior_information = 0;
   if (problem.observations.size() < 3) return {};
-  const SolveSummary summary = solve(problem, options, true);
+  SolveSummary summary = solve(problem, options, true);
   offset = problem.disparity_offset;
   return summary;
 }

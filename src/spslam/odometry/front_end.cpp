@@ -12,6 +12,7 @@ namespace {
 
 std::vector<cv::Mat> levels_of(const ScalePyramid& pyramid) {
   std::vector<cv::Mat> levels;
+  levels.reserve(static_cast<std::size_t>(pyramid.size()));
   for (int i = 0; i < pyramid.size(); ++i) levels.push_back(pyramid[i]);
   return levels;
 }

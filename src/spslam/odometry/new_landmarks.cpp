@@ -76,6 +76,7 @@ std::vector<NewLandmark> find_new_landmarks(const ActiveMap& map, const Frame& f
   if (count <= 0) return {};
   if (options.stereo_by_descriptor) return from_stereo_stage(map, frame, sightings, count, options);
   std::vector<cv::Point2f> occupied;
+  occupied.reserve(sightings.size());
   for (const Sighting& s : sightings)
     occupied.emplace_back(static_cast<float>(s.measured.x()), static_cast<float>(s.measured.y()));
   const Features corners = front_end.new_corners(occupied, count);
