@@ -9,14 +9,13 @@ failed=0
 
 mapfile -t files < <(find . \( -name .git -o -name build -o -name out -o -name node_modules \) -prune -o -type f \
   \( -name '*.h' -o -name '*.cpp' -o -name '*.cmake' -o -name CMakeLists.txt -o -name '*.sh' -o -name '*.py' -o -path ./.ci/run \) -print | sort)
-for file in "${files[@]}"; do
-  if [ "$(head -n 3 "$file" | grep -c -E 'SPDX-(FileCopyrightText: 2026 The SP-SLAM authors|License-Identifier: Apache-2.0)$')" != 2 ]; then
-    echo "$file: the two SPDX lines are missing at the top"; failed=1
-  fi
-done
-for file in "${files[@]}"; do
-  case "$file" in *.h) grep -q '^#pragma once$' "$file" || { echo "$file: no #pragma once"; failed=1; } ;; esac
-done
+awk 'FNR <= 3 && /SPDX-(FileCopyrightText: 2026 The SP-SLAM authors|License-Identifier: Apache-2.0)$/ { ++spdx[FILENAME] }
+     /^#pragma once$/ { once[FILENAME] = 1 }
+     END { for (i = 1; i < ARGC; ++i) {
+             if (spdx[ARGV[i]] != 2) { print ARGV[i] ": the two SPDX lines are missing at the top"; bad = 1 }
+             if (ARGV[i] ~ /[.]h$/ && !once[ARGV[i]]) { print ARGV[i] ": no #pragma once"; bad = 1 }
+           }
+           exit bad }' "${files[@]}" || failed=1
 
 # The brackets keep the patterns from matching this very file.
 if grep -n -w -i -E 'TO[D]O|FIX[M]E|XX[X]|not[ ]implemented|place[h]older|du[m]my' "${files[@]}"; then
