@@ -50,6 +50,10 @@ struct BadConfig {
   std::vector<std::string> said;
 };
 
+void PrintTo(const BadConfig& row, std::ostream* out) {
+  *out << row.name;
+}
+
 class WrongConfig : public testing::TestWithParam<BadConfig> {};
 
 TEST_P(WrongConfig, IsExplained) {

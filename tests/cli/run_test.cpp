@@ -122,6 +122,10 @@ struct BadImage {
   std::function<void(const fs::path&)> break_it;
 };
 
+void PrintTo(const BadImage& row, std::ostream* out) {
+  *out << row.name;
+}
+
 class RunBadImage : public Run, public testing::WithParamInterface<BadImage> {};
 
 TEST_P(RunBadImage, InTheMiddleCoastsAndTracksAgain) {
@@ -181,6 +185,10 @@ struct BadRun {
   int exit_code;
   std::vector<std::string> said;
 };
+
+void PrintTo(const BadRun& row, std::ostream* out) {
+  *out << row.name;
+}
 
 class RefusedRun : public Run, public testing::WithParamInterface<BadRun> {};
 

@@ -133,6 +133,10 @@ struct BadTime {
   double time;  // of a copy of frame 7, given after it
 };
 
+void PrintTo(const BadTime& row, std::ostream* out) {
+  *out << row.name;
+}
+
 class BadTimeInTheMiddle : public testing::TestWithParam<BadTime> {};
 
 TEST_P(BadTimeInTheMiddle, LeavesTheFrameOutAndChangesNothing) {

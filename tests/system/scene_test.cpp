@@ -17,6 +17,10 @@ struct PresetLimit {
   double ate;  // m, over a way of 1.5 m
 };
 
+void PrintTo(const PresetLimit& row, std::ostream* out) {
+  *out << option_names(row.preset)[static_cast<int>(row.preset)];
+}
+
 class Accuracy : public testing::TestWithParam<PresetLimit> {};
 
 TEST_P(Accuracy, IsNearTheTruth) {

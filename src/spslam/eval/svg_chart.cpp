@@ -112,7 +112,7 @@ std::string bands(const Chart& chart, const Frame& frame) {
 
 // One point in a series, or of each stretch of a long series the lowest and the highest.
 std::vector<Eigen::Vector2d> thinned(const Chart& chart, const std::vector<Eigen::Vector2d>& points) {
-  const std::size_t most = static_cast<std::size_t>(2 * chart.width);
+  const std::size_t most = 2 * static_cast<std::size_t>(chart.width);
   const std::size_t stretch = (points.size() + most - 1) / most;
   if (stretch <= 1) return points;
   std::vector<Eigen::Vector2d> kept;
