@@ -20,9 +20,9 @@ YamlMap YamlMap::parse(std::string_view text, std::string name) {
   std::string body(text);
   if (body.starts_with("%YAML:")) body[0] = '#';  // keeps the line numbers
   try {
-    YAML::Node node = YAML::Load(body);
+    const YAML::Node node = YAML::Load(body);
     if (!node.IsMap()) throw InputError(name + ": holds no `key: value` lines; is this the right file?");
-    return {std::move(node), std::move(name)};
+    return {node, std::move(name)};
   } catch (const YAML::Exception& error) {
     throw InputError(name + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML (" + error.msg +
                      ")");
@@ -72,7 +72,7 @@ std::vector<double> YamlMap::reals(const std::string& key) const {
   const YAML::Node node = child(key);
   if (!node.IsSequence()) fail(key, "must be a list of numbers in [ ]");
   std::vector<double> values;
-  for (std::size_t i = 0; i < node.size(); ++i) values.push_back(real(node[i], key));
+  for (const YAML::Node& value : node) values.push_back(real(value, key));
   return values;
 }
 

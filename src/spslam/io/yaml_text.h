@@ -29,7 +29,7 @@ class YamlMap {
   [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
  private:
-  YamlMap(YAML::Node node, std::string name) : node_(std::move(node)), name_(std::move(name)) {}
+  YamlMap(const YAML::Node& node, std::string name) : node_(node), name_(std::move(name)) {}
   YAML::Node child(const std::string& key) const;
   double real(const YAML::Node& node, const std::string& key) const;
 

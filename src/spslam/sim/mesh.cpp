@@ -37,7 +37,7 @@ void add_box(Mesh& mesh, const Box& box, const QuadInfo& info) {
   const std::array<Vector2f, 4> round{Vector2f{-h, -h}, Vector2f{h, -h}, Vector2f{h, h}, Vector2f{-h, h}};
   float along = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vector2f p = round[i], q = round[(i + 1) % 4];
+    const Vector2f &p = round[i], &q = round[(i + 1) % 4];
     const float side = i % 2 == 0 ? box.size.x() : box.size.y();
     mesh.add(corner(p.x(), p.y(), 0), corner(q.x(), q.y(), 0), corner(q.x(), q.y(), 1),
              corner(p.x(), p.y(), 1), info, {along, box.base.z()}, {side, box.size.z()});
