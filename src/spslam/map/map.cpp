@@ -3,6 +3,7 @@
 
 #include "spslam/map/map.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace spslam {
@@ -22,19 +23,107 @@ const Value* look_up(const std::map<Id, Value>& all, Id id) {
   return it == all.end() ? nullptr : &it->second;
 }
 
+template <class Sightings>
+auto place_of(Sightings& sightings, LandmarkId id) {
+  return std::lower_bound(sightings.begin(), sightings.end(), id,
+                          [](const Sighting& a, LandmarkId b) { return a.landmark < b; });
+}
+
+void insert_sorted(std::vector<KeyframeId>& ids, KeyframeId id) {
+  const auto at = std::lower_bound(ids.begin(), ids.end(), id);
+  if (at == ids.end() || *at != id) ids.insert(at, id);
+}
+
 }  // namespace
 
 void Map::add(Keyframe keyframe) {
+  std::sort(keyframe.sightings.begin(), keyframe.sightings.end(),
+            [](const Sighting& a, const Sighting& b) { return a.landmark < b.landmark; });
+  std::erase_if(keyframe.sightings, [&](const Sighting& s) { return !landmarks_.contains(s.landmark); });
+  const KeyframeId id = keyframe.id;
+  const bool has_parent = keyframe.parent.valid();
+  const KeyframeId newest = keyframes_.empty() ? KeyframeId{} : keyframes_.rbegin()->first;
   insert(keyframes_, std::move(keyframe), "keyframe");
+  Keyframe& added = keyframes_.at(id);
+  for (const Sighting& sighting : added.sightings) insert_sorted(observers_[sighting.landmark], id);
+  if (has_parent) return;
+  const std::vector<Covisible> neighbours = covisible(id);
+  added.parent = neighbours.empty() ? newest : neighbours.front().id;
 }
+
 void Map::add(Landmark landmark) {
   insert(landmarks_, std::move(landmark), "landmark");
 }
+
 const Keyframe* Map::find(KeyframeId id) const {
   return look_up(keyframes_, id);
 }
 const Landmark* Map::find(LandmarkId id) const {
   return look_up(landmarks_, id);
+}
+
+const std::vector<KeyframeId>& Map::observers(LandmarkId id) const {
+  static const std::vector<KeyframeId> kNone;
+  const std::vector<KeyframeId>* found = look_up(observers_, id);
+  return found ? *found : kNone;
+}
+
+std::vector<Covisible> Map::covisible(KeyframeId id, int least) const {
+  std::map<KeyframeId, int> shared;
+  if (const Keyframe* keyframe = find(id))
+    for (const Sighting& sighting : keyframe->sightings)
+      for (const KeyframeId other : observers(sighting.landmark)) shared[other] += other != id;
+  std::vector<Covisible> out;
+  for (const auto& [other, count] : shared)
+    if (other != id && count >= std::max(1, least)) out.push_back({other, count});
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Covisible& a, const Covisible& b) { return a.shared > b.shared; });
+  return out;
+}
+
+void Map::erase(LandmarkId id) {
+  for (const KeyframeId observer : std::vector(observers(id))) erase_sighting(observer, id);
+  observers_.erase(id);
+  landmarks_.erase(id);
+}
+
+bool Map::erase(KeyframeId id) {
+  const auto it = keyframes_.find(id);
+  if (it == keyframes_.end() || !it->second.parent.valid()) return false;
+  std::vector<LandmarkId> orphans;
+  for (const auto& [landmark_id, landmark] : landmarks_)
+    if (landmark.host == id && !move_to_next_host(landmark, id)) orphans.push_back(landmark_id);
+  for (const LandmarkId orphan : orphans) erase(orphan);
+  for (const Sighting& sighting : it->second.sightings) std::erase(observers_.at(sighting.landmark), id);
+  for (auto& [other_id, other] : keyframes_)
+    if (other.parent == id) other.parent = it->second.parent;
+  std::erase_if(loops_, [&](const LoopEdge& edge) { return edge.older == id || edge.newer == id; });
+  keyframes_.erase(it);
+  return true;
+}
+
+// The point stays where it is, in the camera of another keyframe that saw it. False if there is none, or only
+// one that would have it behind itself.
+bool Map::move_to_next_host(const Landmark& landmark, KeyframeId from) {
+  const Keyframe& old_host = keyframes_.at(from);
+  for (const KeyframeId id : observers(landmark.id)) {
+    if (id == from) continue;
+    const Keyframe& host = keyframes_.at(id);
+    const Sighting& sighting = *find_sighting(host, landmark.id);
+    const SE3 motion = host.camera_from_world * old_host.camera_from_world.inverse();
+    // x = R b + w t is the point divided by its depth in the old host: its z is the ratio of the depths.
+    const Eigen::Vector3d x =
+        motion.rotation * landmark.bearing + landmark.inverse_depth * motion.translation;
+    if (!(x.z() > 1e-3) || sighting.inverse_sigma.x() <= 0) continue;
+    Landmark& moved = landmarks_.at(landmark.id);
+    moved.host = id;
+    moved.pixel = sighting.measured.head<2>().cast<float>();
+    moved.bearing = x / x.z();
+    moved.inverse_depth /= x.z();
+    moved.information *= x.z() * x.z();
+    return true;
+  }
+  return false;
 }
 
 bool Map::set_pose(KeyframeId id, const SE3& camera_from_world) {
@@ -50,6 +139,61 @@ bool Map::set_estimate(LandmarkId id, double inverse_depth, double information) 
   it->second.inverse_depth = inverse_depth;
   it->second.information = information;
   return true;
+}
+
+bool Map::set_features(KeyframeId id, std::shared_ptr<const KeyframeFeatures> features) {
+  const auto it = keyframes_.find(id);
+  if (it == keyframes_.end()) return false;
+  it->second.features = std::move(features);
+  return true;
+}
+
+void Map::drop_images(KeyframeId id) {
+  const auto it = keyframes_.find(id);
+  if (it == keyframes_.end()) return;
+  it->second.left = {};
+  it->second.right = {};
+}
+
+bool Map::set_sighting(KeyframeId id, const Sighting& sighting) {
+  const auto it = keyframes_.find(id);
+  if (it == keyframes_.end() || !landmarks_.contains(sighting.landmark)) return false;
+  std::vector<Sighting>& sightings = it->second.sightings;
+  const auto at = place_of(sightings, sighting.landmark);
+  if (at != sightings.end() && at->landmark == sighting.landmark)
+    *at = sighting;
+  else
+    sightings.insert(at, sighting);
+  insert_sorted(observers_[sighting.landmark], id);
+  return true;
+}
+
+void Map::erase_sighting(KeyframeId id, LandmarkId landmark) {
+  const auto it = keyframes_.find(id);
+  if (it == keyframes_.end()) return;
+  std::vector<Sighting>& sightings = it->second.sightings;
+  const auto at = place_of(sightings, landmark);
+  if (at == sightings.end() || at->landmark != landmark) return;
+  sightings.erase(at);
+  std::erase(observers_.at(landmark), id);
+}
+
+void Map::fuse(LandmarkId kept, LandmarkId gone) {
+  if (kept == gone || !find(kept) || !find(gone)) return;
+  for (const KeyframeId observer : std::vector(observers(gone))) {
+    Sighting sighting = *find_sighting(keyframes_.at(observer), gone);
+    sighting.landmark = kept;
+    // What its host saw of `gone` is its disparity alone: the position is the bearing itself.
+    if (landmarks_.at(gone).host == observer && sighting.inverse_sigma.x() <= 0)
+      sighting.inverse_sigma.head<2>().setConstant(sighting.inverse_sigma.z());
+    if (!find_sighting(keyframes_.at(observer), kept)) set_sighting(observer, sighting);
+  }
+  erase(gone);
+}
+
+const Sighting* find_sighting(const Keyframe& keyframe, LandmarkId landmark) {
+  const auto at = place_of(keyframe.sightings, landmark);
+  return at != keyframe.sightings.end() && at->landmark == landmark ? &*at : nullptr;
 }
 
 }  // namespace spslam

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// The map: owner of keyframes and landmarks, by id. Written by the local mapper alone.
+// The map: owner of keyframes and landmarks, by id, with the covisibility graph, the spanning tree and the
+// loop edges. Written by the local mapper alone.
 #pragma once
 
 #include <map>
@@ -9,26 +10,59 @@
 
 namespace spslam {
 
+// A keyframe that sees some of the same landmarks, and how many.
+struct Covisible {
+  KeyframeId id;
+  int shared = 0;
+  friend bool operator==(const Covisible&, const Covisible&) = default;
+};
+
 class Map {
  public:
-  // Throws std::invalid_argument if the id is taken or not valid.
+  // Throws std::invalid_argument if the id is taken or not valid. A keyframe's parent in the spanning tree is
+  // the one it shares most landmarks with, or the newest one if it shares none, unless it comes with one.
   void add(Keyframe keyframe);
   void add(Landmark landmark);
-  void erase(KeyframeId id) { keyframes_.erase(id); }
-  void erase(LandmarkId id) { landmarks_.erase(id); }
+  // Takes the landmark out of the keyframes that saw it, too.
+  void erase(LandmarkId id);
+  // The landmarks that it hosts move to the next keyframe that saw them, or go with it; its children in the
+  // spanning tree go to its parent; its loop edges go. The root of the tree stays: false.
+  bool erase(KeyframeId id);
 
   const Keyframe* find(KeyframeId id) const;  // null if there is none (any more)
   const Landmark* find(LandmarkId id) const;
+  // The keyframes that saw a landmark, ascending.
+  const std::vector<KeyframeId>& observers(LandmarkId id) const;
+  // Those that share at least `least` landmarks with it: most first, then by id.
+  std::vector<Covisible> covisible(KeyframeId id, int least = 1) const;
+
   // Replaces the estimate of one that is still there; false if it is gone.
   bool set_pose(KeyframeId id, const SE3& camera_from_world);
   bool set_estimate(LandmarkId id, double inverse_depth, double information);
+  bool set_features(KeyframeId id, std::shared_ptr<const KeyframeFeatures> features);
+  // Lets go of the keyframe's images.
+  void drop_images(KeyframeId id);
+  // Adds what a keyframe saw, or replaces it; false if the keyframe or the landmark is gone.
+  bool set_sighting(KeyframeId id, const Sighting& sighting);
+  void erase_sighting(KeyframeId id, LandmarkId landmark);
+  // `gone` was `kept` all along: who saw it saw `kept`. A keyframe that saw both keeps what it saw of `kept`.
+  void fuse(LandmarkId kept, LandmarkId gone);
+  void add(const LoopEdge& edge) { loops_.push_back(edge); }
 
   const std::map<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
   const std::map<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
+  const std::vector<LoopEdge>& loops() const { return loops_; }
 
  private:
+  bool move_to_next_host(const Landmark& landmark, KeyframeId from);
+
   std::map<KeyframeId, Keyframe> keyframes_;
   std::map<LandmarkId, Landmark> landmarks_;
+  std::map<LandmarkId, std::vector<KeyframeId>> observers_;
+  std::vector<LoopEdge> loops_;
 };
+
+// The sighting of a landmark, or null.
+const Sighting* find_sighting(const Keyframe& keyframe, LandmarkId landmark);
 
 }  // namespace spslam

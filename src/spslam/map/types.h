@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "spslam/alignment/pyramid.h"
@@ -36,13 +37,34 @@ struct Sighting {
   double weight = 1;  // w_t of equation (8) for far points, else 1
 };
 
+// ORB features of a keyframe, over all levels of the pyramid: what it is recognized by when the patches are
+// long gone. All vectors are of one length.
+struct KeyframeFeatures {
+  std::vector<Keypoint> keypoints;
+  std::vector<Descriptor> descriptors;
+  std::vector<float> inverse_depths;  // 1/m along z of the left camera
+  std::vector<float> information;     // m^2, of the inverse depth; 0 where none was measured
+
+  std::size_t size() const { return keypoints.size(); }
+};
+
 struct Keyframe {
   KeyframeId id;
   FrameId frame;
   double timestamp = 0;  // s
   SE3 camera_from_world;
-  AlignmentPyramid left;
-  std::vector<Sighting> sightings;  // of the landmarks it saw, its own among them
+  // The images as long as somebody follows their patches; empty in an old keyframe.
+  AlignmentPyramid left, right;
+  std::vector<Sighting> sightings;  // of the landmarks it saw, its own among them; ascending, one a landmark
+  std::shared_ptr<const KeyframeFeatures> features;  // null until the mapper has described it
+  KeyframeId parent;                                 // in the spanning tree; not valid for its root
+};
+
+// The motion between two keyframes as a recognized place gave it.
+struct LoopEdge {
+  KeyframeId older, newer;
+  SE3 newer_from_older;
+  double weight = 1;  // inliers that it rests on
 };
 
 // What the tracker hands to the mapper when it wants a keyframe: the keyframe with all it saw, the landmarks

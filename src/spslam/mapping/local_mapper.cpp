@@ -12,6 +12,7 @@ LocalMapView LocalMapper::insert(KeyframeProposal proposal) {
   // The patches of the keyframe stay with whoever still follows them; a map needs none, and would grow by an
   // image each.
   proposal.keyframe.left = {};
+  proposal.keyframe.right = {};
   map_.add(std::move(proposal.keyframe));
   ++revision_;
   return view();
