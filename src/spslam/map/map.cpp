@@ -37,8 +37,14 @@ void insert_sorted(std::vector<KeyframeId>& ids, KeyframeId id) {
 }  // namespace
 
 void Map::add(Keyframe keyframe) {
-  std::sort(keyframe.sightings.begin(), keyframe.sightings.end(),
-            [](const Sighting& a, const Sighting& b) { return a.landmark < b.landmark; });
+  for (Sighting& sighting : keyframe.sightings)
+    if (const LandmarkId kept = resolve(sighting.landmark); kept != sighting.landmark)
+      sighting = as_seen_of(kept, sighting);
+  std::stable_sort(keyframe.sightings.begin(), keyframe.sightings.end(),
+                   [](const Sighting& a, const Sighting& b) { return a.landmark < b.landmark; });
+  const auto same = [](const Sighting& a, const Sighting& b) { return a.landmark == b.landmark; };
+  keyframe.sightings.erase(std::unique(keyframe.sightings.begin(), keyframe.sightings.end(), same),
+                           keyframe.sightings.end());
   std::erase_if(keyframe.sightings, [&](const Sighting& s) { return !landmarks_.contains(s.landmark); });
   const KeyframeId id = keyframe.id;
   const bool has_parent = keyframe.parent.valid();
@@ -60,6 +66,22 @@ const Keyframe* Map::find(KeyframeId id) const {
 }
 const Landmark* Map::find(LandmarkId id) const {
   return look_up(landmarks_, id);
+}
+
+std::optional<SE3> Map::camera_from_world(KeyframeId id) const {
+  SE3 camera_from_ancestor;
+  for (const Keyframe* keyframe = find(id); !keyframe; keyframe = find(id)) {
+    const Erased* erased = look_up(erased_, id);
+    if (!erased) return std::nullopt;
+    camera_from_ancestor = camera_from_ancestor * erased->camera_from_parent;
+    id = erased->parent;
+  }
+  return camera_from_ancestor * find(id)->camera_from_world;
+}
+
+LandmarkId Map::resolve(LandmarkId id) const {
+  while (const LandmarkId* next = look_up(fused_into_, id)) id = *next;
+  return id;
 }
 
 const std::vector<KeyframeId>& Map::observers(LandmarkId id) const {
@@ -95,6 +117,8 @@ bool Map::erase(KeyframeId id) {
     if (landmark.host == id && !move_to_next_host(landmark, id)) orphans.push_back(landmark_id);
   for (const LandmarkId orphan : orphans) erase(orphan);
   for (const Sighting& sighting : it->second.sightings) std::erase(observers_.at(sighting.landmark), id);
+  const KeyframeId parent = it->second.parent;
+  erased_[id] = {parent, it->second.camera_from_world * find(parent)->camera_from_world.inverse()};
   for (auto& [other_id, other] : keyframes_)
     if (other.parent == id) other.parent = it->second.parent;
   std::erase_if(loops_, [&](const LoopEdge& edge) { return edge.older == id || edge.newer == id; });
@@ -148,11 +172,18 @@ bool Map::set_features(KeyframeId id, std::shared_ptr<const KeyframeFeatures> fe
   return true;
 }
 
-void Map::drop_images(KeyframeId id) {
-  const auto it = keyframes_.find(id);
-  if (it == keyframes_.end()) return;
-  it->second.left = {};
-  it->second.right = {};
+bool Map::update(const Landmark& landmark) {
+  const auto it = landmarks_.find(landmark.id);
+  if (it == landmarks_.end() || it->second.host != landmark.host) return false;
+  it->second.inverse_depth = landmark.inverse_depth;
+  it->second.information = landmark.information;
+  it->second.stereo_inverse_depth = landmark.stereo_inverse_depth;
+  it->second.stereo_information = landmark.stereo_information;
+  return true;
+}
+
+void Map::drop_image(KeyframeId id) {
+  if (const auto it = keyframes_.find(id); it != keyframes_.end()) it->second.left = {};
 }
 
 bool Map::set_sighting(KeyframeId id, const Sighting& sighting) {
@@ -181,14 +212,19 @@ void Map::erase_sighting(KeyframeId id, LandmarkId landmark) {
 void Map::fuse(LandmarkId kept, LandmarkId gone) {
   if (kept == gone || !find(kept) || !find(gone)) return;
   for (const KeyframeId observer : std::vector(observers(gone))) {
-    Sighting sighting = *find_sighting(keyframes_.at(observer), gone);
-    sighting.landmark = kept;
-    // What its host saw of `gone` is its disparity alone: the position is the bearing itself.
-    if (landmarks_.at(gone).host == observer && sighting.inverse_sigma.x() <= 0)
-      sighting.inverse_sigma.head<2>().setConstant(sighting.inverse_sigma.z());
-    if (!find_sighting(keyframes_.at(observer), kept)) set_sighting(observer, sighting);
+    const Sighting& sighting = *find_sighting(keyframes_.at(observer), gone);
+    if (!find_sighting(keyframes_.at(observer), kept)) set_sighting(observer, as_seen_of(kept, sighting));
   }
   erase(gone);
+  fused_into_[gone] = kept;
+}
+
+Sighting as_seen_of(LandmarkId kept, Sighting sighting) {
+  sighting.landmark = kept;
+  // A host's own sighting is a disparity alone, for its position is the bearing itself; of `kept` it is both.
+  const double sigma = sighting.inverse_sigma.x() > 0 ? 1 / sighting.inverse_sigma.x() : 0;
+  sighting.inverse_sigma.head<2>().setConstant(1 / std::hypot(sigma, kFusedSigma));
+  return sighting;
 }
 
 const Sighting* find_sighting(const Keyframe& keyframe, LandmarkId landmark) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "spslam/map/types.h"
 
@@ -30,6 +31,11 @@ class Map {
   bool erase(KeyframeId id);
 
   const Keyframe* find(KeyframeId id) const;  // null if there is none (any more)
+  // Where a keyframe is, or would be now had it not been erased: it stays where it was in its parent's
+  // camera. Nothing for one that never was.
+  std::optional<SE3> camera_from_world(KeyframeId id) const;
+  // The landmark that this one was fused into, in any number of steps; itself if it was not.
+  LandmarkId resolve(LandmarkId id) const;
   const Landmark* find(LandmarkId id) const;
   // The keyframes that saw a landmark, ascending.
   const std::vector<KeyframeId>& observers(LandmarkId id) const;
@@ -40,12 +46,15 @@ class Map {
   bool set_pose(KeyframeId id, const SE3& camera_from_world);
   bool set_estimate(LandmarkId id, double inverse_depth, double information);
   bool set_features(KeyframeId id, std::shared_ptr<const KeyframeFeatures> features);
-  // Lets go of the keyframe's images.
-  void drop_images(KeyframeId id);
+  // Takes over what another says of a landmark that is still there and still hosted by the same keyframe.
+  bool update(const Landmark& landmark);
+  // Lets go of the keyframe's image.
+  void drop_image(KeyframeId id);
   // Adds what a keyframe saw, or replaces it; false if the keyframe or the landmark is gone.
   bool set_sighting(KeyframeId id, const Sighting& sighting);
   void erase_sighting(KeyframeId id, LandmarkId landmark);
-  // `gone` was `kept` all along: who saw it saw `kept`. A keyframe that saw both keeps what it saw of `kept`.
+  // `gone` was `kept` all along: who saw it saw `kept`, if not quite at the same place (kFusedSigma). A
+  // keyframe that saw both keeps what it saw of `kept`. Sightings of `gone` that come later count for `kept`.
   void fuse(LandmarkId kept, LandmarkId gone);
   void add(const LoopEdge& edge) { loops_.push_back(edge); }
 
@@ -60,7 +69,17 @@ class Map {
   std::map<LandmarkId, Landmark> landmarks_;
   std::map<LandmarkId, std::vector<KeyframeId>> observers_;
   std::vector<LoopEdge> loops_;
+  struct Erased {
+    KeyframeId parent;
+    SE3 camera_from_parent;
+  };
+  std::map<KeyframeId, Erased> erased_;
+  std::map<LandmarkId, LandmarkId> fused_into_;
 };
+
+// Corners of the same thing found at different times lie that far apart (px): they are whole pixels.
+inline constexpr double kFusedSigma = 0.7;
+Sighting as_seen_of(LandmarkId kept, Sighting sighting);
 
 // The sighting of a landmark, or null.
 const Sighting* find_sighting(const Keyframe& keyframe, LandmarkId landmark);

@@ -23,6 +23,8 @@ struct Landmark {
   Eigen::Vector3d bearing = Eigen::Vector3d::UnitZ();  // (x, y, 1)
   double inverse_depth = 0;  // 1/m along z; near or below 0: a direction without a depth
   double information = 0;    // m^2, of the inverse depth
+  // What stereo alone said of the inverse depth in frames that did not become keyframes.
+  double stereo_inverse_depth = 0, stereo_information = 0;
   Region region = Region::kNear;
   Descriptor descriptor = {};
   std::uint8_t octave = 0;
@@ -53,8 +55,7 @@ struct Keyframe {
   FrameId frame;
   double timestamp = 0;  // s
   SE3 camera_from_world;
-  // The images as long as somebody follows their patches; empty in an old keyframe.
-  AlignmentPyramid left, right;
+  AlignmentPyramid left;            // as long as somebody follows its patches; empty in an old keyframe
   std::vector<Sighting> sightings;  // of the landmarks it saw, its own among them; ascending, one a landmark
   std::shared_ptr<const KeyframeFeatures> features;  // null until the mapper has described it
   KeyframeId parent;                                 // in the spanning tree; not valid for its root
@@ -70,17 +71,21 @@ struct LoopEdge {
 // What the tracker hands to the mapper when it wants a keyframe: the keyframe with all it saw, the landmarks
 // that it is the first to see, and the present estimates of the others it saw.
 struct KeyframeProposal {
-  Keyframe keyframe;
+  Keyframe keyframe;  // its sightings' disparities without the rig's offset
+  // The keyframe handed over before it and the motion from there, so that corrections that the tracker does
+  // not know yet move the new one along. Not valid for the first.
+  KeyframeId previous;
+  SE3 camera_from_previous;
   std::vector<Landmark> new_landmarks;
   std::vector<Landmark> known_landmarks;
 };
 
 // What the mapper publishes for the tracker: the corrected neighbourhood of the newest keyframe. Immutable.
 struct LocalMapView {
-  std::int64_t revision = 0;  // grows with every publication
-  bool corrected = false;     // poses or landmarks differ from what the tracker proposed
-  std::vector<Keyframe> keyframes;
-  std::vector<Landmark> landmarks;
+  std::int64_t revision = 0;        // grows with every publication
+  bool corrected = false;           // poses or landmarks differ from what the tracker proposed
+  std::vector<Keyframe> keyframes;  // ascending; without sightings and features
+  std::vector<Landmark> landmarks;  // hosted by these keyframes; ascending
 };
 
 }  // namespace spslam

@@ -5,29 +5,68 @@
 
 namespace spslam {
 
-LocalMapView LocalMapper::insert(KeyframeProposal proposal) {
-  for (Landmark& landmark : proposal.new_landmarks) map_.add(std::move(landmark));
-  for (const Landmark& landmark : proposal.known_landmarks)
-    map_.set_estimate(landmark.id, landmark.inverse_depth, landmark.information);
-  // The patches of the keyframe stay with whoever still follows them; a map needs none, and would grow by an
-  // image each.
-  proposal.keyframe.left = {};
-  proposal.keyframe.right = {};
-  map_.add(std::move(proposal.keyframe));
-  ++revision_;
-  return view();
+LocalMapper::LocalMapper(const StereoRig& rig, const OrbOptions& orb, const LocalMapperOptions& options)
+    : rig_(rig), options_(options), extractor_(orb) {
+  rig.check();
+  check_options(options);
 }
 
-LocalMapView LocalMapper::view() const {
+MappingResult LocalMapper::insert(KeyframeProposal proposal, const std::function<bool()>& stop) {
+  MappingResult result;
+  result.keyframe = proposal.keyframe.id;
+  add(std::move(proposal));
+  result.retriangulated = retriangulate(map_, rig_, result.keyframe, options_.retriangulation);  // Figure 7
+  adjust(stop, result);                                                                          // 3.2.2
+  map_.set_features(result.keyframe,
+                    describe(map_, *map_.find(result.keyframe), extractor_, options_.features));
+  result.culled_landmarks = cull_landmarks(map_, result.keyframe, options_.culling);
+  result.culled = cull_keyframes(map_, result.keyframe, options_.culling);
+  result.view = view(result.keyframe);
+  return result;
+}
+
+void LocalMapper::add(KeyframeProposal proposal) {
+  for (Landmark& landmark : proposal.new_landmarks) map_.add(std::move(landmark));
+  for (const Landmark& landmark : proposal.known_landmarks) map_.update(landmark);
+  // The previous keyframe may have been corrected since the tracker measured from it.
+  if (const auto previous = map_.camera_from_world(proposal.previous))
+    proposal.keyframe.camera_from_world = (proposal.camera_from_previous * *previous).normalized();
+  with_images_.push_back(proposal.keyframe.id);
+  map_.add(std::move(proposal.keyframe));
+}
+
+void LocalMapper::adjust(const std::function<bool()>& stop, MappingResult& result) {
+  if (!options_.adjustment.enabled) return;
+  AdjustmentProblem local = copy_neighbourhood(map_, rig_, result.keyframe, options_.adjustment);
+  result.adjustment = solve(local.problem, options_.adjustment.solver, false, stop);
+  if (result.adjustment.status == SolveStatus::kFailed) return;
+  write_back(local, map_);
+  result.outliers = erase_outliers(local, options_.adjustment.outlier_sigmas, map_);
+}
+
+LocalMapView LocalMapper::view(KeyframeId newest) {
+  std::vector<KeyframeId> ids = {newest};
+  for (const Covisible& other : map_.covisible(newest))
+    if (static_cast<int>(ids.size()) < options_.view_keyframes) ids.push_back(other.id);
+  std::sort(ids.begin(), ids.end());
+  std::erase_if(with_images_, [&](KeyframeId id) {
+    const bool needed = std::binary_search(ids.begin(), ids.end(), id);
+    if (!needed) map_.drop_image(id);
+    return !needed;
+  });
   LocalMapView out;
-  out.revision = revision_;
-  int count = options_.view_keyframes;
-  for (auto it = map_.keyframes().rbegin(); it != map_.keyframes().rend() && count-- > 0; ++it) {
-    out.keyframes.push_back(it->second);
-    for (const Sighting& sighting : it->second.sightings)
-      if (const Landmark* landmark = map_.find(sighting.landmark); landmark && landmark->host == it->first)
-        out.landmarks.push_back(*landmark);
+  out.revision = ++revision_;
+  out.corrected = options_.adjustment.enabled || options_.retriangulation.enabled;
+  for (const KeyframeId id : ids) {
+    const Keyframe& keyframe = *map_.find(id);
+    out.keyframes.push_back(
+        {id, keyframe.frame, keyframe.timestamp, keyframe.camera_from_world, keyframe.left, {}, {}, {}});
+    for (const Sighting& sighting : keyframe.sightings)
+      if (const Landmark& landmark = *map_.find(sighting.landmark); landmark.host == id)
+        out.landmarks.push_back(landmark);
   }
+  std::sort(out.landmarks.begin(), out.landmarks.end(),
+            [](const Landmark& a, const Landmark& b) { return a.id < b.id; });
   return out;
 }
 

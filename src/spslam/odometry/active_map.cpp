@@ -34,6 +34,15 @@ DepthEvidence depth_evidence(const ActiveMap& map, const Landmark& landmark, con
           landmark.inverse_depth - w.cwiseProduct(at.by_inverse_depth).dot(at.residual) / information};
 }
 
+// What the sighting's disparity alone says, of which the poses do not matter much.
+void keep_stereo(const DepthEvidence& evidence, Landmark& landmark) {
+  const double sum = landmark.stereo_information + evidence.information;
+  landmark.stereo_inverse_depth = (landmark.stereo_information * landmark.stereo_inverse_depth +
+                                   evidence.information * evidence.inverse_depth) /
+                                  sum;
+  landmark.stereo_information = sum;
+}
+
 void keep_as_prior(ActiveMap& map, const WindowFrame& frame, const SolverOptions& options) {
   for (const Sighting& sighting : frame.sightings) {
     const int i = map.index_of(sighting.landmark);
@@ -46,6 +55,12 @@ void keep_as_prior(ActiveMap& map, const WindowFrame& frame, const SolverOptions
                                   evidence.information * evidence.inverse_depth) /
                                  sum;
     active.prior_information = sum;
+    if (frame.keyframe.valid()) continue;
+    Sighting stereo = sighting;
+    stereo.inverse_sigma.head<2>().setZero();
+    if (const DepthEvidence alone = depth_evidence(map, active.landmark, frame, stereo, options);
+        alone.information > 0)
+      keep_stereo(alone, active.landmark);
   }
 }
 

@@ -41,8 +41,8 @@ KeyframeEvidence Tracker::evidence(const WindowFrame& present) const {
 
 void Tracker::make_keyframe(const Frame& frame, WindowFrame& present) {
   present.keyframe = {keyframes_++};
-  map_.hosts[present.keyframe] = {present.keyframe,          present.id, present.timestamp,
-                                  present.camera_from_world, frame.left, {}};
+  map_.hosts[present.keyframe] = {
+      present.keyframe, present.id, present.timestamp, present.camera_from_world, frame.left, {}, {}, {}};
   for (NewLandmark& fresh : find_new_landmarks(map_, frame, present.sightings, front_end_, options_)) {
     fresh.landmark.id = fresh.sighting.landmark = {landmarks_++};
     fresh.landmark.host = present.keyframe;
@@ -75,9 +75,9 @@ void Tracker::settle(std::size_t frames_kept, TrackerOutput& out) {
       const WindowFrame& frame = map_.window.front();
       pose = frame.camera_from_world;
       if (frame.keyframe.valid()) {
+        out.proposals.push_back(propose(frame));
         settled_reference_ = frame.keyframe;
         settled_reference_pose_ = pose;
-        out.proposals.push_back(propose(frame));
       }
       shorten_window(map_, static_cast<int>(map_.window.size()) - 1, options_.window);
     }
@@ -91,6 +91,8 @@ KeyframeProposal Tracker::propose(const WindowFrame& frame) {
   KeyframeProposal proposal;
   proposal.keyframe = map_.hosts.at(frame.keyframe);
   proposal.keyframe.sightings = frame.sightings;
+  for (Sighting& s : proposal.keyframe.sightings)
+    s.measured.z() -= map_.disparity_offset.at(map_.rig, s.measured.x(), s.measured.y());
   for (const Sighting& s : frame.sightings) {
     const int i = map_.index_of(s.landmark);
     const auto retired = retired_.find(s.landmark);
@@ -98,6 +100,8 @@ KeyframeProposal Tracker::propose(const WindowFrame& frame) {
     const Landmark& landmark = i >= 0 ? map_.landmarks[i].landmark : retired->second;
     (landmark.host == frame.keyframe ? proposal.new_landmarks : proposal.known_landmarks).push_back(landmark);
   }
+  proposal.previous = settled_reference_;
+  proposal.camera_from_previous = frame.camera_from_world * settled_reference_pose_.inverse();
   std::erase_if(retired_, [&](const auto& entry) { return entry.second.host <= frame.keyframe; });
   return proposal;
 }
@@ -112,15 +116,16 @@ void Tracker::adopt(const LocalMapView& view) {
   if (!view.corrected) return;
   // The window moves rigidly with the last keyframe handed over, and everything that hangs on it.
   SE3 world_from_old;
-  for (const Keyframe& keyframe : view.keyframes) {
+  for (const Keyframe& keyframe : view.keyframes)
     if (keyframe.id == settled_reference_) {
       world_from_old = keyframe.camera_from_world.inverse() * settled_reference_pose_;
       settled_reference_pose_ = keyframe.camera_from_world;
     }
+  const SE3 old_from_world = world_from_old.inverse();
+  for (auto& [id, host] : map_.hosts) host.camera_from_world = host.camera_from_world * old_from_world;
+  for (const Keyframe& keyframe : view.keyframes)
     if (const auto host = map_.hosts.find(keyframe.id); host != map_.hosts.end())
       host->second.camera_from_world = keyframe.camera_from_world;
-  }
-  const SE3 old_from_world = world_from_old.inverse();
   for (WindowFrame& frame : map_.window) {
     frame.camera_from_world = frame.camera_from_world * old_from_world;
     if (frame.keyframe.valid()) map_.hosts.at(frame.keyframe).camera_from_world = frame.camera_from_world;

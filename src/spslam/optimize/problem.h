@@ -12,6 +12,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "spslam/base/options.h"
@@ -106,7 +107,7 @@ struct SolverOptions {
   }
 };
 
-enum class SolveStatus { kConverged, kIterationsUsedUp, kFailed };
+enum class SolveStatus { kConverged, kIterationsUsedUp, kStopped, kFailed };
 
 struct SolveSummary {
   SolveStatus status = SolveStatus::kFailed;
@@ -141,8 +142,9 @@ LinearizedMotion linearize(const MotionPrior& prior, const SE3& first, const SE3
 
 // Minimizes the robust cost over the free poses and landmarks by Levenberg-Marquardt with the landmarks
 // eliminated (Schur complement; Triggs et al. 2000). Poses and inverse depths of `problem` are replaced by
-// the best ones found.
-SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_covariance = false);
+// the best ones found. `stop`, if given, is asked before each step and ends it with what was reached so far.
+SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_covariance = false,
+                   const std::function<bool()>& stop = {});
 
 // The robust cost at the present values.
 double total_cost(const Problem& problem, const SolverOptions& options);

@@ -103,7 +103,8 @@ void find_uncertainty(const NormalEquations& equations, const PoseColumns& colum
 
 }  // namespace
 
-SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_covariance) {
+SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_covariance,
+                   const std::function<bool()>& stop) {
   const PoseColumns columns(problem);
   NormalEquations equations, trial;
   build_normal_equations(problem, columns, options, equations);
@@ -112,6 +113,10 @@ SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_cov
   summary.initial_cost = summary.final_cost = equations.cost;
   double damping = options.initial_damping;
   while (summary.iterations < options.iterations) {
+    if (stop && stop()) {
+      summary.status = SolveStatus::kStopped;
+      break;
+    }
     ++summary.iterations;
     const Step step = solve_step(equations, damping);
     const Values before(problem);

@@ -14,7 +14,7 @@ namespace spslam {
 
 struct Slam::Stages {
   Stages(const StereoRig& rig, const SlamOptions& slam_options)
-      : options(slam_options), tracker(rig, options.tracker), mapper(options.mapper) {
+      : options(slam_options), tracker(rig, options.tracker), mapper(rig, options.tracker.orb, options.mapper) {
     if (options.threads == Threads::kParallel) mapping = std::thread([this] { map_keyframes(); });
   }
   ~Stages() { stop(); }
@@ -29,7 +29,7 @@ struct Slam::Stages {
   }
   void insert(KeyframeProposal proposal) {
     const std::scoped_lock lock(mutex);
-    view = mapper.insert(std::move(proposal));
+    view = mapper.insert(std::move(proposal)).view;
   }
   void take(TrackerOutput& output) {
     {
@@ -96,9 +96,9 @@ std::vector<TrajectoryPose> Slam::trajectory() const {
   const std::scoped_lock lock(stages_->mutex);
   std::vector<TrajectoryPose> out;
   for (const FramePose& frame : stages_->settled)
-    if (const Keyframe* reference = stages_->mapper.map().find(frame.reference))
+    if (const auto reference = stages_->mapper.map().camera_from_world(frame.reference))
       out.push_back({frame.frame, frame.timestamp, frame.status,
-                     (frame.camera_from_reference * reference->camera_from_world).inverse()});
+                     (frame.camera_from_reference * *reference).inverse()});
   return out;
 }
 

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// What a keyframe is recognized by later: ORB features over all levels, with the inverse depths of the
+// landmarks that it saw at or near them.
+#pragma once
+
+#include "spslam/features/orb_extractor.h"
+#include "spslam/map/map.h"
+
+namespace spslam {
+
+struct DescribeOptions {
+  int count = 1000;
+  double depth_radius = 5;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit(self.count, {"count", "", "ORB features kept of a keyframe", 50, 20000});
+    visit(self.depth_radius,
+          {"depth_radius", "px", "how far a feature may be from a landmark to take over its depth", 0, 50});
+  }
+};
+
+// The features of a keyframe that still has its image: first its sightings where they were seen, on full
+// size, then corners of all levels, at most `count` in all. Null if it has no image.
+std::shared_ptr<const KeyframeFeatures> describe(const Map& map, const Keyframe& keyframe,
+                                                 OrbExtractor& extractor, const DescribeOptions& options);
+
+}  // namespace spslam
