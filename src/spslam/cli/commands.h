@@ -17,6 +17,7 @@ using Command = std::function<int()>;
 // `chosen`.
 void add_config(CLI::App& app, Command& chosen);
 void add_evaluate(CLI::App& app, Command& chosen);
+void add_export_map(CLI::App& app, Command& chosen);
 void add_report(CLI::App& app, Command& chosen);
 void add_run(CLI::App& app, Command& chosen);
 void add_segment(CLI::App& app, Command& chosen);

@@ -39,6 +39,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_config(app, chosen);
   add_evaluate(app, chosen);
   add_report(app, chosen);
+  add_export_map(app, chosen);
   add_segment(app, chosen);
   add_simulate(app, chosen);
 }
