@@ -13,7 +13,7 @@ struct AdjustmentOptions {
   bool enabled = true;
   int keyframes = 8;
   bool uniform_weights = true;
-  SolverOptions solver{.iterations = 8, .loss = Loss::kPseudoHuber};
+  SolverOptions solver{.iterations = 8};
   double outlier_sigmas = 6;
 
   template <class Self, class Visitor>

@@ -36,8 +36,9 @@ KeyframeDecision KeyframePolicy::decide(const KeyframeEvidence& e, const Keyfram
   decision.too_few_points = e.tracked < options.min_tracked;
   decision.entropy_changed = options.entropy && entropy_changed(e.entropy, options);
   if (e.frames_since_keyframe >= options.min_frames) {
-    decision.too_many_frames = e.frames_since_keyframe >= options.max_frames;
-    decision.moved_enough = e.rotation > options.max_rotation || e.parallax > options.max_parallax;
+    decision.too_many_frames = !e.mapper_is_busy && e.frames_since_keyframe >= options.max_frames;
+    decision.moved_enough =
+        !e.mapper_is_busy && (e.rotation > options.max_rotation || e.parallax > options.max_parallax);
     decision.keyframe_points_lost = 1 - e.share_of_keyframe > options.lost_of_keyframe;
     decision.previous_points_lost = e.tracked < (1 - options.lost_of_previous) * e.tracked_before;
   } else {

@@ -23,6 +23,7 @@ struct KeyframeEvidence {
   double rotation = 0;           // deg, since the last keyframe
   double parallax = 0;           // px, median motion of the points since they were first seen
   double entropy = 0;            // nats
+  bool mapper_is_busy = false;   // then the conditions (i) on time and motion have to wait
 };
 
 struct KeyframeDecision {

@@ -33,9 +33,9 @@ struct FollowOptions {
   double search_radius = 20;
   int max_distance = 64;
   double max_distance_ratio = 0.85;
-  double position_sigma = 0.25;
+  double position_sigma = 0.35;
   double keypoint_sigma = 0.7;
-  double disparity_sigma = 0.2;
+  double disparity_sigma = 0.12;
   double max_row_offset = 1.5;
   double max_return = 0.3;
   int max_missed = 2;
@@ -162,6 +162,21 @@ struct LandmarkOptions {
   }
 };
 
+struct RecallOptions {
+  bool enabled = true;
+  int count = 100;
+  double max_angle = 30;
+  double max_scale = 1.5;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit(self.enabled, {"enabled", "", "look again for landmarks of the local map that should be in sight"});
+    visit(self.count, {"count", "", "looked for at most after each keyframe", 0, 10000});
+    visit(self.max_angle, {"max_angle", "deg", "between the views from the host and from here", 1, 90});
+    visit(self.max_scale, {"max_scale", "", "by which the patch may have grown or shrunk", 1, 10});
+  }
+};
+
 struct TrackerOptions {
   OrbOptions orb;
   bool segment = true;
@@ -172,6 +187,7 @@ struct TrackerOptions {
   RowSearchOptions row_search;
   LandmarkOptions landmarks;
   FollowOptions follow;
+  RecallOptions recall;
   FarOptions far;
   SolverOptions motion;
   SolverOptions window{.iterations = 6};
@@ -192,6 +208,7 @@ struct TrackerOptions {
     visit.group("row_search", self.row_search);
     visit.group("landmarks", self.landmarks);
     visit.group("follow", self.follow);
+    visit.group("recall", self.recall);
     visit.group("far", self.far);
     visit.group("motion", self.motion);
     visit.group("window", self.window);

@@ -16,7 +16,7 @@ struct RigOptions {
   bool estimate = true;
   int memory = 40;
   double window_scatter = 0.1;
-  double floor = 0.05;
+  double floor = 0.08;
   double max_rotation = 5;
   double warn = 0.3;
 

@@ -63,8 +63,10 @@ TrackerOutput Tracker::track(const StereoFrame& pair) {
       coast(result.reason, result);  // 3.1.3, 3.1.4
     if (status_ == TrackStatus::kTracking) {
       WindowFrame& present = map_.window.back();
-      result.keyframe = policy_.decide(evidence(present), options_.keyframe);  // 3.2.1
-      if (!present.keyframe.valid() && result.keyframe.insert()) make_keyframe(frame, present);
+      if (!present.keyframe.valid()) {
+        result.keyframe = policy_.decide(evidence(present), options_.keyframe);  // 3.2.1
+        if (result.keyframe.insert()) make_keyframe(frame, present);
+      }
       result.keyframe_id = present.keyframe;
     }
   }

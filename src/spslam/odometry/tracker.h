@@ -37,8 +37,12 @@ class Tracker {
 
   // Frames in order of time. A pair that cannot be used gets a status, not an exception.
   TrackerOutput track(const StereoFrame& pair);
-  // Takes over what the mapper has corrected since: poses and inverse depths of what is still followed.
+  // Takes over what the mapper has corrected since: poses and inverse depths of what is still followed, and
+  // landmarks that should be in sight again.
   void adopt(const LocalMapView& view);
+  // While the mapper is behind, keyframes are made only where points are lost or the motion becomes
+  // uncertain.
+  void set_mapper_busy(bool busy) { mapper_is_busy_ = busy; }
   // Empties the window, at the end of a run.
   TrackerOutput finish();
 
@@ -65,6 +69,7 @@ class Tracker {
   void finish_frame(TrackerOutput& out);
 
   KeyframeEvidence evidence(const WindowFrame& present) const;
+  void take_corrections(const LocalMapView& view);
   void make_keyframe(const Frame& frame, WindowFrame& present);
   void settle(std::size_t frames_kept, TrackerOutput& out);
   KeyframeProposal propose(const WindowFrame& frame);
@@ -82,6 +87,7 @@ class Tracker {
   Matrix6d motion_covariance_ =
       Matrix6d::Identity() * 1e-12;  // of the newest frame against the landmarks it saw
   std::int64_t frames_ = 0, keyframes_ = 0, landmarks_ = 0;  // ids given
+  bool mapper_is_busy_ = false;
   int frames_since_keyframe_ = 0, tracked_before_ = 0;
   SE3 keyframe_pose_;                             // camera_from_world of the last keyframe when it was made
   std::vector<SeenByKeyframe> seen_by_keyframe_;  // ascending

@@ -3,6 +3,7 @@
 // The tracker's keyframes: when one is made, what it brings, and how it is handed over.
 
 #include "spslam/odometry/new_landmarks.h"
+#include "spslam/odometry/recall.h"
 #include "spslam/odometry/tracker.h"
 
 namespace spslam {
@@ -19,6 +20,7 @@ double median(std::vector<double> values) {
 
 KeyframeEvidence Tracker::evidence(const WindowFrame& present) const {
   KeyframeEvidence out;
+  out.mapper_is_busy = mapper_is_busy_;
   out.frames_since_keyframe = frames_since_keyframe_;
   out.tracked = static_cast<int>(present.sightings.size());
   out.tracked_before = tracked_before_;
@@ -113,7 +115,12 @@ TrackerOutput Tracker::finish() {
 }
 
 void Tracker::adopt(const LocalMapView& view) {
-  if (!view.corrected) return;
+  if (view.corrected) take_corrections(view);
+  if (options_.recall.enabled && status_ == TrackStatus::kTracking)
+    recall(view, motion_.last_pose(), options_, map_);
+}
+
+void Tracker::take_corrections(const LocalMapView& view) {
   // The window moves rigidly with the last keyframe handed over, and everything that hangs on it.
   SE3 world_from_old;
   for (const Keyframe& keyframe : view.keyframes)

@@ -36,6 +36,10 @@ class BoundedQueue {
     changed_.notify_all();
     return value;
   }
+  bool empty() const {
+    const std::scoped_lock lock(mutex_);
+    return values_.empty();
+  }
   void close() {
     const std::scoped_lock lock(mutex_);
     closed_ = true;
@@ -44,7 +48,7 @@ class BoundedQueue {
 
  private:
   const std::size_t capacity_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<T> values_;
   bool closed_ = false;

@@ -250,7 +250,7 @@ Map assemble(std::vector<Landmark> landmarks, std::vector<Keyframe> keyframes,
 
 }  // namespace
 
-std::vector<std::byte> encode_map(const Map& map, const StereoRig& rig) {
+std::vector<std::byte> encode_map(const Map& map, const StereoRig& rig, std::size_t header_bytes) {
   rig.check();
   MapIds ids;
   for (const auto& [id, landmark] : map.landmarks()) ids.landmarks.push_back(id);
@@ -260,7 +260,8 @@ std::vector<std::byte> encode_map(const Map& map, const StereoRig& rig) {
   if (const Problem problem = first_problem(ids, landmarks, keyframes, map.loops()))
     throw OutputError("the map is not saved, for nobody could read it: " + *problem +
                       "; this is an error of the program, please report it");
-  ByteWriter out(encoded_size(map));
+  ByteWriter out(header_bytes + encoded_size(map));
+  for (std::size_t i = 0; i < header_bytes; ++i) out.put(std::uint8_t{0});
   put(out, rig);
   out.put(std::uint64_t{map.landmarks().size()});
   for (const Landmark& landmark : landmarks) put(out, landmark);

@@ -19,8 +19,9 @@ struct SavedMap {
   StereoRig rig;
 };
 
-// Throws OutputError if the map contradicts itself, for nobody could read it.
-std::vector<std::byte> encode_map(const Map& map, const StereoRig& rig);
+// Behind so many bytes for a header. Throws OutputError if the map contradicts itself, for nobody could read
+// it.
+std::vector<std::byte> encode_map(const Map& map, const StereoRig& rig, std::size_t header_bytes = 0);
 // Throws InputError if the bytes are no map or one that contradicts itself; name stands for the file.
 SavedMap decode_map(std::span<const std::byte> bytes, const std::string& name);
 

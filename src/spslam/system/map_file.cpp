@@ -5,11 +5,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <cstring>
-#include <fstream>
 
 #include "spslam/base/atomic_file.h"
+#include "spslam/base/mapped_file.h"
 #include "spslam/system/byte_stream.h"
 
 namespace spslam {
@@ -18,19 +18,6 @@ namespace {
 constexpr std::array<char, 8> kMagic = {'S', 'P', 'S', 'L', 'M', 'A', 'P', '\x1A'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = kMagic.size() + 4 + 4 + 8;
-
-std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::exists(path, code))
-    throw InputError(path.string() + " does not exist; check the path");
-  if (!std::filesystem::is_regular_file(path, code))
-    throw InputError(path.string() + " is not a file; give a map that --save-map wrote");
-  std::vector<std::byte> bytes(std::filesystem::file_size(path));
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-    throw InputError(path.string() + " cannot be read (" + std::strerror(errno) + "); check its permissions");
-  return bytes;
-}
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw InputError(name + ": " + what);
@@ -44,19 +31,20 @@ std::string described(const StereoRig& rig) {
 }  // namespace
 
 void save_map(const std::filesystem::path& path, const Map& map, const StereoRig& rig) {
-  const std::vector<std::byte> payload = encode_map(map, rig);
-  ByteWriter file(kHeaderBytes + payload.size());
-  for (const char letter : kMagic) file.put(letter);
-  file.put(kVersion);
-  file.put(crc32(payload));
-  file.put(std::uint64_t{payload.size()});
-  std::vector<std::byte> bytes = std::move(file).bytes();
-  bytes.insert(bytes.end(), payload.begin(), payload.end());
-  write_file_atomically(path, bytes);
+  std::vector<std::byte> file = encode_map(map, rig, kHeaderBytes);
+  const auto payload = std::span<const std::byte>(file).subspan(kHeaderBytes);
+  ByteWriter header(kHeaderBytes);
+  for (const char letter : kMagic) header.put(letter);
+  header.put(kVersion);
+  header.put(crc32(payload));
+  header.put(std::uint64_t{payload.size()});
+  std::ranges::copy(std::move(header).bytes(), file.begin());
+  write_file_atomically(path, file);
 }
 
 SavedMap load_map(const std::filesystem::path& path) {
-  return parse_map(read_bytes(path), path.string());
+  const MappedFile file(path);
+  return parse_map(file.bytes(), path.string());
 }
 
 SavedMap parse_map(std::span<const std::byte> file, const std::string& name) {

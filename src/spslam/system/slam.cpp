@@ -3,6 +3,7 @@
 
 #include "spslam/system/slam.h"
 
+#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <thread>
@@ -14,7 +15,9 @@ namespace spslam {
 
 struct Slam::Stages {
   Stages(const StereoRig& rig, const SlamOptions& slam_options)
-      : options(slam_options), tracker(rig, options.tracker), mapper(rig, options.tracker.orb, options.mapper) {
+      : options(slam_options),
+        tracker(rig, options.tracker),
+        mapper(rig, options.tracker.orb, options.mapper) {
     if (options.threads == Threads::kParallel) mapping = std::thread([this] { map_keyframes(); });
   }
   ~Stages() { stop(); }
@@ -28,14 +31,23 @@ struct Slam::Stages {
     while (auto proposal = proposals.pop()) insert(std::move(*proposal));
   }
   void insert(KeyframeProposal proposal) {
-    const std::scoped_lock lock(mutex);
-    view = mapper.insert(std::move(proposal)).view;
+    const auto start = std::chrono::steady_clock::now();
+    const std::scoped_lock lock(map_mutex);
+    MappingResult done = mapper.insert(std::move(proposal), [this] { return !proposals.empty(); });
+    log.push_back(
+        {done.keyframe, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+         done.retriangulated, done.outliers, done.culled_landmarks, static_cast<int>(done.culled.size()),
+         done.adjustment.iterations, done.adjustment.initial_cost, done.adjustment.final_cost,
+         mapper.map().keyframes().size(), mapper.map().landmarks().size()});
+    const std::scoped_lock view_lock(view_mutex);
+    view = std::move(done.view);
+  }
+  LocalMapView take_view() {
+    const std::scoped_lock lock(view_mutex);
+    return std::exchange(view, {});
   }
   void take(TrackerOutput& output) {
-    {
-      const std::scoped_lock lock(mutex);
-      settled.insert(settled.end(), output.settled.begin(), output.settled.end());
-    }
+    settled.insert(settled.end(), output.settled.begin(), output.settled.end());
     for (KeyframeProposal& proposal : output.proposals) {
       if (options.threads == Threads::kSequential)
         insert(std::move(proposal));
@@ -50,10 +62,12 @@ struct Slam::Stages {
   double last_timestamp = 0;
   bool finished = false;
   BoundedQueue<KeyframeProposal> proposals{8};
-  mutable std::mutex mutex;  // guards what follows
+  std::vector<FramePose> settled;  // of the caller's thread
+  mutable std::mutex map_mutex;    // guards what follows
   LocalMapper mapper;
+  std::vector<MappingInfo> log;
+  std::mutex view_mutex;  // guards the view, so that the tracker never waits for the mapper
   LocalMapView view;
-  std::vector<FramePose> settled;
   std::thread mapping;  // last: it uses all of the above
 };
 
@@ -74,12 +88,8 @@ TrackResult Slam::track(const StereoFrame& pair) {
   }
   stages_->has_frame = true;
   stages_->last_timestamp = pair.timestamp;
-  LocalMapView view;
-  {
-    const std::scoped_lock lock(stages_->mutex);
-    std::swap(view, stages_->view);
-  }
-  if (view.revision > 0) stages_->tracker.adopt(view);
+  if (const LocalMapView view = stages_->take_view(); view.revision > 0) stages_->tracker.adopt(view);
+  stages_->tracker.set_mapper_busy(!stages_->proposals.empty());
   TrackerOutput output = stages_->tracker.track(pair);
   stages_->take(output);
   return output.result;
@@ -93,17 +103,17 @@ void Slam::finish() {
 }
 
 std::vector<TrajectoryPose> Slam::trajectory() const {
-  const std::scoped_lock lock(stages_->mutex);
+  const std::scoped_lock lock(stages_->map_mutex);
   std::vector<TrajectoryPose> out;
   for (const FramePose& frame : stages_->settled)
     if (const auto reference = stages_->mapper.map().camera_from_world(frame.reference))
-      out.push_back({frame.frame, frame.timestamp, frame.status,
-                     (frame.camera_from_reference * *reference).inverse()});
+      out.push_back(
+          {frame.frame, frame.timestamp, frame.status, (frame.camera_from_reference * *reference).inverse()});
   return out;
 }
 
 std::vector<KeyframeInfo> Slam::keyframes() const {
-  const std::scoped_lock lock(stages_->mutex);
+  const std::scoped_lock lock(stages_->map_mutex);
   std::vector<KeyframeInfo> out;
   for (const auto& [id, keyframe] : stages_->mapper.map().keyframes())
     out.push_back({id, keyframe.frame, keyframe.timestamp, keyframe.camera_from_world.inverse(),
@@ -112,8 +122,13 @@ std::vector<KeyframeInfo> Slam::keyframes() const {
 }
 
 std::size_t Slam::landmark_count() const {
-  const std::scoped_lock lock(stages_->mutex);
+  const std::scoped_lock lock(stages_->map_mutex);
   return stages_->mapper.map().landmarks().size();
+}
+
+std::vector<MappingInfo> Slam::mapping() const {
+  const std::scoped_lock lock(stages_->map_mutex);
+  return stages_->log;
 }
 
 }  // namespace spslam

@@ -32,6 +32,16 @@ struct KeyframeInfo {
   int sightings = 0;
 };
 
+// What local mapping did with a keyframe.
+struct MappingInfo {
+  KeyframeId keyframe;
+  double seconds = 0;
+  int retriangulated = 0, outliers = 0, culled_landmarks = 0, culled_keyframes = 0;
+  int iterations = 0;  // of the local bundle adjustment
+  double initial_cost = 0, final_cost = 0;
+  std::size_t keyframes = 0, landmarks = 0;  // in the map afterwards
+};
+
 class Slam {
  public:
   // Throws InputError for a rig, OptionError for options that are not usable.
@@ -55,6 +65,8 @@ class Slam {
   std::vector<TrajectoryPose> trajectory() const;
   std::vector<KeyframeInfo> keyframes() const;
   std::size_t landmark_count() const;
+  // One a keyframe that was handed to the mapper, in order.
+  std::vector<MappingInfo> mapping() const;
 
  private:
   struct Stages;
