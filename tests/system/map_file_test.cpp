@@ -140,7 +140,7 @@ TEST_F(MapFile, ReplacesTheOldOne) {
 TEST_F(MapFile, MissingOrNoFile) {
   EXPECT_THAT(message_of([&] { load_map(path("nothing")); }),
               AllOf(HasSubstr("nothing"), HasSubstr("exist")));
-  EXPECT_THAT(message_of([&] { load_map(path().parent_path()); }), HasSubstr("not a file"));
+  EXPECT_THAT(message_of([&] { load_map(path().parent_path()); }), HasSubstr("is a folder"));
 }
 
 TEST(MapBytes, RefusesForeignAndNewerFiles) {
