@@ -7,7 +7,6 @@
 #include "spslam/system/map_encoding.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "spslam/system/byte_stream.h"
 #include "spslam/system/map_soundness.h"
@@ -211,21 +210,34 @@ std::size_t encoded_size(const Map& map) {
   return size;
 }
 
-// The first thing that is wrong, if any. parents: of the keyframes, in the order of ids.keyframes.
-template <class Landmarks, class Keyframes>
-Problem first_problem(const MapIds& ids, const Landmarks& landmarks, const Keyframes& keyframes,
-                      const std::vector<LoopEdge>& loops) {
-  Problem problem = problem_of(ids);
+// What is in a map or is about to be, in the order of the ids.
+struct Parts {
+  MapIds ids;
+  std::vector<const Landmark*> landmarks;
+  std::vector<const Keyframe*> keyframes;
+
+  void add(const Landmark& landmark) {
+    ids.landmarks.push_back(landmark.id);
+    landmarks.push_back(&landmark);
+  }
+  void add(const Keyframe& keyframe) {
+    ids.keyframes.push_back(keyframe.id);
+    keyframes.push_back(&keyframe);
+  }
+};
+
+Problem first_problem(const Parts& parts, const std::vector<LoopEdge>& loops) {
+  if (const Problem problem = problem_of(parts.ids)) return problem;
+  for (const Landmark* landmark : parts.landmarks)
+    if (const Problem problem = problem_of(*landmark, parts.ids)) return problem;
   std::vector<KeyframeId> parents;
-  for (const Landmark& landmark : landmarks)
-    if (!problem) problem = problem_of(landmark, ids);
-  for (const Keyframe& keyframe : keyframes) {
-    if (!problem) problem = problem_of(keyframe, ids);
-    parents.push_back(keyframe.parent);
+  for (const Keyframe* keyframe : parts.keyframes) {
+    if (const Problem problem = problem_of(*keyframe, parts.ids)) return problem;
+    parents.push_back(keyframe->parent);
   }
   for (const LoopEdge& edge : loops)
-    if (!problem) problem = problem_of(edge, ids);
-  return problem ? problem : problem_of_tree(parents, ids);
+    if (const Problem problem = problem_of(edge, parts.ids)) return problem;
+  return problem_of_tree(parents, parts.ids);
 }
 
 void check(const StereoRig& rig, const std::string& name) {
@@ -252,21 +264,19 @@ Map assemble(std::vector<Landmark> landmarks, std::vector<Keyframe> keyframes,
 
 std::vector<std::byte> encode_map(const Map& map, const StereoRig& rig, std::size_t header_bytes) {
   rig.check();
-  MapIds ids;
-  for (const auto& [id, landmark] : map.landmarks()) ids.landmarks.push_back(id);
-  for (const auto& [id, keyframe] : map.keyframes()) ids.keyframes.push_back(id);
-  const auto landmarks = std::views::values(map.landmarks());
-  const auto keyframes = std::views::values(map.keyframes());
-  if (const Problem problem = first_problem(ids, landmarks, keyframes, map.loops()))
+  Parts parts;
+  for (const auto& [id, landmark] : map.landmarks()) parts.add(landmark);
+  for (const auto& [id, keyframe] : map.keyframes()) parts.add(keyframe);
+  if (const Problem problem = first_problem(parts, map.loops()))
     throw OutputError("the map is not saved, for nobody could read it: " + *problem +
                       "; this is an error of the program, please report it");
   ByteWriter out(header_bytes + encoded_size(map));
   for (std::size_t i = 0; i < header_bytes; ++i) out.put(std::uint8_t{0});
   put(out, rig);
   out.put(std::uint64_t{map.landmarks().size()});
-  for (const Landmark& landmark : landmarks) put(out, landmark);
+  for (const Landmark* landmark : parts.landmarks) put(out, *landmark);
   out.put(std::uint64_t{map.keyframes().size()});
-  for (const Keyframe& keyframe : keyframes) put(out, keyframe);
+  for (const Keyframe* keyframe : parts.keyframes) put(out, *keyframe);
   out.put(std::uint64_t{map.loops().size()});
   for (const LoopEdge& edge : map.loops()) put(out, edge);
   return std::move(out).bytes();
@@ -281,10 +291,10 @@ SavedMap decode_map(std::span<const std::byte> bytes, const std::string& name) {
   std::vector<Keyframe> keyframes = take_all(in, kKeyframeBytes, "keyframes", take_keyframe);
   const std::vector<LoopEdge> loops = take_all(in, kLoopBytes, "loop edges", take_loop);
   if (in.left() > 0) in.fail("the map ends here, the file does not");
-  MapIds ids;
-  for (const Landmark& landmark : landmarks) ids.landmarks.push_back(landmark.id);
-  for (const Keyframe& keyframe : keyframes) ids.keyframes.push_back(keyframe.id);
-  if (const Problem problem = first_problem(ids, landmarks, keyframes, loops))
+  Parts parts;
+  for (const Landmark& landmark : landmarks) parts.add(landmark);
+  for (const Keyframe& keyframe : keyframes) parts.add(keyframe);
+  if (const Problem problem = first_problem(parts, loops))
     throw InputError(name + ": " + *problem + "; the file is damaged, use another copy or make it anew");
   saved.map = assemble(std::move(landmarks), std::move(keyframes), loops);
   return saved;

@@ -38,7 +38,8 @@ void save_map(const std::filesystem::path& path, const Map& map, const StereoRig
   header.put(kVersion);
   header.put(crc32(payload));
   header.put(std::uint64_t{payload.size()});
-  std::ranges::copy(std::move(header).bytes(), file.begin());
+  const std::vector<std::byte> header_bytes = std::move(header).bytes();
+  std::copy(header_bytes.begin(), header_bytes.end(), file.begin());
   write_file_atomically(path, file);
 }
 
