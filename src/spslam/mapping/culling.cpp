@@ -23,6 +23,42 @@ bool is_redundant(const Map& map, const Keyframe& keyframe, const CullingOptions
   return redundant > options.redundant_share * static_cast<double>(keyframe.sightings.size());
 }
 
+// The largest angle of the middle half, rad, under which the landmarks that both see have the two cameras.
+double typical_parallax(const Map& map, const Keyframe& a, const Keyframe& b) {
+  std::vector<double> angles;
+  const Eigen::Vector3d centre_a = a.camera_from_world.inverse().translation,
+                        centre_b = b.camera_from_world.inverse().translation;
+  for (const Sighting& sighting : a.sightings) {
+    if (!find_sighting(b, sighting.landmark)) continue;
+    const Landmark& landmark = *map.find(sighting.landmark);
+    const SE3 world_from_host = map.find(landmark.host)->camera_from_world.inverse();
+    // Scaled by the inverse depth, so that a point at infinity is no exception.
+    const Eigen::Vector3d ray = world_from_host.rotation * landmark.bearing;
+    const auto seen_from = [&](const Eigen::Vector3d& centre) -> Eigen::Vector3d {
+      return ray + landmark.inverse_depth * (world_from_host.translation - centre);
+    };
+    const Eigen::Vector3d from_a = seen_from(centre_a), from_b = seen_from(centre_b);
+    angles.push_back(std::atan2(from_a.cross(from_b).norm(), from_a.dot(from_b)));
+  }
+  if (angles.empty()) return M_PI;
+  const auto at = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() * 3 / 4);
+  std::nth_element(angles.begin(), at, angles.end());
+  return *at;
+}
+
+// Whether a keyframe of an earlier visit sees the same place from nearly the same side.
+bool was_here_before(const Map& map, const Keyframe& keyframe, const CullingOptions& options) {
+  for (const Covisible& other : map.covisible(keyframe.id, options.revisit_shared)) {
+    if (other.id.value + options.revisit_gap > keyframe.id.value) continue;
+    const Keyframe& before = *map.find(other.id);
+    const Eigen::Matrix3d turn =
+        keyframe.camera_from_world.rotation * before.camera_from_world.rotation.transpose();
+    if (so3_log(turn).norm() * 180 / M_PI > options.revisit_rotation) continue;
+    if (typical_parallax(map, keyframe, before) * 180 / M_PI < options.revisit_parallax) return true;
+  }
+  return false;
+}
+
 bool ends_a_loop(const Map& map, KeyframeId id) {
   return std::any_of(map.loops().begin(), map.loops().end(),
                      [&](const LoopEdge& edge) { return edge.older == id || edge.newer == id; });
@@ -47,9 +83,13 @@ std::vector<KeyframeId> cull_keyframes(Map& map, KeyframeId newest, const Cullin
   const Keyframe* last_kept = before(map, newest, options.keep_newest - 1);
   if (!options.enabled || !last_kept) return gone;
   const KeyframeId limit = last_kept->id;
+  const auto may_go = [&](const Keyframe& keyframe) {
+    return keyframe.parent.valid() && !ends_a_loop(map, keyframe.id);
+  };
+  if (may_go(*last_kept) && was_here_before(map, *last_kept, options) && map.erase(limit)) return {limit};
   for (const Covisible& other : map.covisible(limit)) {
     const Keyframe& keyframe = *map.find(other.id);
-    if (other.id >= limit || !keyframe.parent.valid() || ends_a_loop(map, other.id)) continue;
+    if (other.id >= limit || !may_go(keyframe)) continue;
     if (is_redundant(map, keyframe, options) && map.erase(other.id)) gone.push_back(other.id);
   }
   return gone;

@@ -11,9 +11,13 @@ struct CullingOptions {
   bool enabled = true;
   int landmark_trial = 3;
   int landmark_views = 2;
-  double redundant_share = 0.9;
+  double redundant_share = 0.95;
   int redundant_views = 3;
   int keep_newest = 10;
+  int revisit_gap = 50;
+  int revisit_shared = 30;
+  double revisit_rotation = 10;
+  double revisit_parallax = 6;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -27,14 +31,22 @@ struct CullingOptions {
     visit(self.redundant_views,
           {"redundant_views", "", "other keyframes that must see a landmark for it to count there", 1, 100});
     visit(self.keep_newest, {"keep_newest", "", "newest keyframes that never go", 3, 1000});
+    visit(self.revisit_gap,
+          {"revisit_gap", "", "keyframes between two for them to be two visits of a place", 1, 100000});
+    visit(self.revisit_shared,
+          {"revisit_shared", "", "landmarks that both must see for it to be the same place", 1, 10000});
+    visit(self.revisit_rotation, {"revisit_rotation", "deg", "largest rotation between them", 0.1, 90});
+    visit(self.revisit_parallax,
+          {"revisit_parallax", "deg", "largest angle under which a shared landmark sees both", 0.1, 90});
   }
 };
 
 // Erases the landmarks whose trial ended with this keyframe and that too few keyframes saw; their number.
 int cull_landmarks(Map& map, KeyframeId newest, const CullingOptions& options);
 
-// Erases the keyframes around this one whose landmarks are almost all seen by enough others; their ids. The
-// root of the spanning tree, the ends of loop edges and the newest ones stay.
+// Erases the keyframes around this one whose landmarks are almost all seen by enough others, and the one that
+// has just ceased to be among the newest if an earlier visit saw the same place: their ids. The root of the
+// spanning tree, the ends of loop edges and the newest ones stay.
 std::vector<KeyframeId> cull_keyframes(Map& map, KeyframeId newest, const CullingOptions& options);
 
 }  // namespace spslam

@@ -13,7 +13,7 @@
 namespace spslam {
 
 struct LocalMapperOptions {
-  int view_keyframes = 10;
+  int view_keyframes = 20;
   DescribeOptions features;
   RetriangulationOptions retriangulation;
   AdjustmentOptions adjustment;

@@ -164,7 +164,7 @@ struct LandmarkOptions {
 
 struct RecallOptions {
   bool enabled = true;
-  int count = 100;
+  int count = 200;
   double max_angle = 30;
   double max_scale = 1.5;
 

@@ -17,7 +17,7 @@ struct RigOptions {
   int memory = 40;
   double window_scatter = 0.1;
   double floor = 0.08;
-  double max_rotation = 5;
+  double max_rotation = 2;
   double warn = 0.3;
 
   template <class Self, class Visitor>
