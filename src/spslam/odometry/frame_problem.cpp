@@ -79,15 +79,20 @@ enum class Hosts { kAll, kOfWindow };
 
 // All frames of the window, the first one fixed, and what they saw of landmarks with a host among `hosts`.
 void add_window(const ActiveMap& map, Hosts hosts, ProblemBuilder& builder) {
-  for (std::size_t f = 0; f < map.window.size(); ++f) {
-    builder.add_pose(map.window[f].camera_from_world, f == 0);
-    if (map.window[f].keyframe.valid()) builder.set_place(map.window[f].keyframe, static_cast<int>(f));
+  std::size_t first = 0;
+  // Frames before the window's first host see none of its landmarks: nothing would hold their poses.
+  while (hosts == Hosts::kOfWindow && first < map.window.size() && !map.window[first].keyframe.valid())
+    ++first;
+  std::vector<int> poses(map.window.size(), -1);
+  for (std::size_t f = first; f < map.window.size(); ++f) {
+    poses[f] = builder.add_pose(map.window[f].camera_from_world, f == first);
+    if (map.window[f].keyframe.valid()) builder.set_place(map.window[f].keyframe, poses[f]);
   }
-  for (std::size_t f = 0; f < map.window.size(); ++f)
+  for (std::size_t f = first; f < map.window.size(); ++f)
     for (const Sighting& sighting : map.window[f].sightings)
       if (const int i = map.index_of(sighting.landmark); i >= 0)
         if (hosts == Hosts::kAll || builder.has_place(map.landmarks[i].landmark.host))
-          builder.observe(builder.landmark(i, true), static_cast<int>(f), sighting);
+          builder.observe(builder.landmark(i, true), poses[f], sighting);
 }
 
 }  // namespace

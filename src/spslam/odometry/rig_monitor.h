@@ -16,8 +16,8 @@ struct RigOptions {
   bool estimate = true;
   int memory = 40;
   double window_scatter = 0.1;
-  double floor = 0.08;
-  double max_rotation = 2;
+  double floor = 0.1;
+  double max_rotation = 5;
   double warn = 0.3;
 
   template <class Self, class Visitor>
