@@ -33,47 +33,127 @@ KeyframeProposal proposal(std::int64_t id) {
   return out;
 }
 
+const StereoRig kRig = [] {
+  StereoRig rig;
+  rig.fx = rig.fy = 100;
+  rig.cx = 80, rig.cy = 60;
+  rig.baseline = 0.1;
+  rig.width = 160, rig.height = 120;
+  return rig;
+}();
+
+LocalMapper make_mapper(int view_keyframes = 20) {
+  LocalMapperOptions options;
+  options.view_keyframes = view_keyframes;
+  options.culling.enabled = false;
+  return {kRig, OrbOptions{}, options};
+}
+
 TEST(LocalMapper, InsertPublishesTheNeighbourhood) {
-  LocalMapper mapper({});
-  const LocalMapView first = mapper.insert(proposal(0)), second = mapper.insert(proposal(1));
+  LocalMapper mapper = make_mapper();
+  const LocalMapView first = mapper.insert(proposal(0)).view, second = mapper.insert(proposal(1)).view;
   EXPECT_GT(second.revision, first.revision);
   EXPECT_EQ(first.keyframes.size(), 1U);
   ASSERT_EQ(second.keyframes.size(), 2U);
   EXPECT_EQ(second.landmarks.size(), 4U);
-  for (const Keyframe& keyframe : second.keyframes)
-    EXPECT_EQ(keyframe.camera_from_world.translation.z(), -static_cast<double>(keyframe.id.value));
+  EXPECT_FALSE(second.keyframes.back().left.empty());  // whose patches the tracker may look for again
 }
 
 TEST(LocalMapper, TakesOverTheTrackersEstimates) {
-  LocalMapper mapper({});
+  LocalMapper mapper = make_mapper();
   mapper.insert(proposal(0));
   EXPECT_EQ(mapper.map().find(LandmarkId{1})->inverse_depth, 0.1);
   mapper.insert(proposal(1));
-  EXPECT_EQ(mapper.map().find(LandmarkId{1})->inverse_depth, 0.2);
   EXPECT_EQ(mapper.map().find(LandmarkId{1})->information, 50);
   EXPECT_EQ(mapper.map().find(LandmarkId{0})->inverse_depth, 0.1);
 }
 
-TEST(LocalMapper, KeyframesKeepNoImages) {
-  LocalMapper mapper({});
-  const LocalMapView view = mapper.insert(proposal(0));
-  EXPECT_TRUE(mapper.map().find(KeyframeId{0})->left.empty());
-  EXPECT_TRUE(view.keyframes.at(0).left.empty());
+TEST(LocalMapper, EstimatesForAnotherHostAreNotTakenOver) {
+  LocalMapper mapper = make_mapper();
+  mapper.insert(proposal(0));
+  KeyframeProposal second = proposal(1);
+  second.known_landmarks.front().host = {1};
+  mapper.insert(std::move(second));
+  EXPECT_EQ(mapper.map().find(LandmarkId{1})->information, 0);
 }
 
-TEST(LocalMapper, TheViewIsBounded) {
-  LocalMapper mapper({.view_keyframes = 3});
+// The tracker measured from a keyframe that has been corrected since.
+TEST(LocalMapper, NewKeyframesMoveWithTheCorrectionsTheyDoNotKnow) {
+  LocalMapper mapper = make_mapper();
+  mapper.insert(proposal(0));
+  KeyframeProposal second = proposal(1);
+  second.previous = {0};
+  second.camera_from_previous.translation = {0, 0, -2};
+  mapper.insert(std::move(second));
+  const SE3 expected = second.camera_from_previous * mapper.map().find(KeyframeId{0})->camera_from_world;
+  const SE3& found = mapper.map().find(KeyframeId{1})->camera_from_world;
+  EXPECT_LT((found.translation - expected.translation).norm(), 1e-9);
+}
+
+TEST(LocalMapper, KeyframesAreDescribed) {
+  LocalMapper mapper = make_mapper();
+  KeyframeProposal first = proposal(0);
+  for (Sighting& s : first.keyframe.sightings) s.measured = {80, 60, 1};
+  first.keyframe.sightings.back().measured.x() = 100;
+  mapper.insert(std::move(first));
+  const auto features = mapper.map().find(KeyframeId{0})->features;
+  ASSERT_TRUE(features);
+  ASSERT_EQ(features->size(), 2U);
+  EXPECT_EQ(features->keypoints[0].x, 80);
+  EXPECT_NEAR(features->inverse_depths[1], 0.1, 1e-6);
+  EXPECT_EQ(features->descriptors.size(), 2U);
+  EXPECT_EQ(features->information.size(), 2U);
+}
+
+TEST(LocalMapper, TheViewIsBoundedAndOldKeyframesKeepNoImages) {
+  LocalMapper mapper = make_mapper(2);
   LocalMapView view;
-  for (int i = 0; i < 8; ++i) view = mapper.insert(proposal(i));
+  for (int i = 0; i < 8; ++i) view = mapper.insert(proposal(i)).view;
   std::vector<std::int64_t> ids;
   for (const Keyframe& keyframe : view.keyframes) ids.push_back(keyframe.id.value);
-  EXPECT_THAT(ids, testing::UnorderedElementsAre(5, 6, 7));
-  for (const Landmark& landmark : view.landmarks) EXPECT_GE(landmark.host.value, 5);
+  EXPECT_THAT(ids, testing::ElementsAre(6, 7));
+  for (const Landmark& landmark : view.landmarks) EXPECT_GE(landmark.host.value, 6);
   EXPECT_EQ(mapper.map().keyframes().size(), 8U);
+  for (const auto& [id, keyframe] : mapper.map().keyframes()) EXPECT_EQ(keyframe.left.empty(), id.value < 6);
+}
+
+TEST(LocalMapper, AKeyframeThatSeesNothingKnownIsTakenAllTheSame) {
+  LocalMapper mapper = make_mapper();
+  mapper.insert(proposal(0));
+  KeyframeProposal alone = proposal(1);
+  alone.known_landmarks.clear();
+  alone.keyframe.sightings.clear();
+  alone.new_landmarks.clear();
+  const MappingResult result = mapper.insert(std::move(alone));
+  EXPECT_EQ(mapper.map().find(KeyframeId{1})->parent, KeyframeId{0});
+  EXPECT_EQ(result.view.keyframes.back().id, KeyframeId{1});
+}
+
+TEST(LocalMapper, SightingsOfWhatWasCulledAreLeftOut) {
+  LocalMapperOptions options;
+  options.culling.landmark_trial = 1;
+  options.culling.landmark_views = 5;  // all go
+  LocalMapper mapper(kRig, OrbOptions{}, options);
+  for (int i = 0; i < 6; ++i) mapper.insert(proposal(i));
+  for (const auto& [id, keyframe] : mapper.map().keyframes())
+    for (const Sighting& s : keyframe.sightings) EXPECT_NE(mapper.map().find(s.landmark), nullptr);
+  EXPECT_LT(mapper.map().landmarks().size(), 4U);
+}
+
+TEST(LocalMapper, NumbersThatAreNotFiniteDoNotSpread) {
+  LocalMapper mapper = make_mapper();
+  mapper.insert(proposal(0));
+  KeyframeProposal second = proposal(1);
+  second.keyframe.sightings.back().measured = {std::nan(""), 3, 1};
+  second.keyframe.sightings.back().inverse_sigma = {4, 4, 5};
+  mapper.insert(std::move(second));
+  EXPECT_TRUE(mapper.map().find(KeyframeId{1})->camera_from_world.is_finite());
+  for (const auto& [id, landmark] : mapper.map().landmarks())
+    EXPECT_TRUE(std::isfinite(landmark.inverse_depth));
 }
 
 TEST(LocalMapper, AnIdThatIsTakenIsRefused) {
-  LocalMapper mapper({});
+  LocalMapper mapper = make_mapper();
   mapper.insert(proposal(0));
   EXPECT_THROW(mapper.insert(proposal(0)), std::invalid_argument);
 }

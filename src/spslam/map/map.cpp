@@ -42,6 +42,7 @@ void Map::add(Keyframe keyframe) {
       sighting = as_seen_of(kept, sighting);
   std::stable_sort(keyframe.sightings.begin(), keyframe.sightings.end(),
                    [](const Sighting& a, const Sighting& b) { return a.landmark < b.landmark; });
+  std::erase_if(keyframe.sightings, [](const Sighting& s) { return !s.measured.allFinite(); });
   const auto same = [](const Sighting& a, const Sighting& b) { return a.landmark == b.landmark; };
   keyframe.sightings.erase(std::unique(keyframe.sightings.begin(), keyframe.sightings.end(), same),
                            keyframe.sightings.end());

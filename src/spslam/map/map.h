@@ -22,6 +22,7 @@ class Map {
  public:
   // Throws std::invalid_argument if the id is taken or not valid. A keyframe's parent in the spanning tree is
   // the one it shares most landmarks with, or the newest one if it shares none, unless it comes with one.
+  // Sightings that are not finite, or of landmarks that are not there, are left out.
   void add(Keyframe keyframe);
   void add(Landmark landmark);
   // Takes the landmark out of the keyframes that saw it, too.

@@ -55,10 +55,10 @@ struct Keyframe {
   FrameId frame;
   double timestamp = 0;  // s
   SE3 camera_from_world;
-  AlignmentPyramid left;            // as long as somebody follows its patches; empty in an old keyframe
-  std::vector<Sighting> sightings;  // of the landmarks it saw, its own among them; ascending, one a landmark
-  std::shared_ptr<const KeyframeFeatures> features;  // null until the mapper has described it
-  KeyframeId parent;                                 // in the spanning tree; not valid for its root
+  AlignmentPyramid left = {};            // as long as somebody follows its patches; empty in an old keyframe
+  std::vector<Sighting> sightings = {};  // ascending, one a landmark it saw, its own among them
+  std::shared_ptr<const KeyframeFeatures> features = {};  // null until the mapper has described it
+  KeyframeId parent = {};                                 // in the spanning tree; not valid for its root
 };
 
 // The motion between two keyframes as a recognized place gave it.

@@ -23,9 +23,10 @@ bool is_redundant(const Map& map, const Keyframe& keyframe, const CullingOptions
   return redundant > options.redundant_share * static_cast<double>(keyframe.sightings.size());
 }
 
-// The largest angle of the middle half, rad, under which the landmarks that both see have the two cameras.
-double typical_parallax(const Map& map, const Keyframe& a, const Keyframe& b) {
-  std::vector<double> angles;
+// How differently two keyframes see what both see: the angle between the two rays to a landmark, in rad, or
+// the logarithm of the ratio of its distances, whichever is more; three quarters of the landmarks have less.
+double change_of_view(const Map& map, const Keyframe& a, const Keyframe& b) {
+  std::vector<double> changes;
   const Eigen::Vector3d centre_a = a.camera_from_world.inverse().translation,
                         centre_b = b.camera_from_world.inverse().translation;
   for (const Sighting& sighting : a.sightings) {
@@ -38,11 +39,12 @@ double typical_parallax(const Map& map, const Keyframe& a, const Keyframe& b) {
       return ray + landmark.inverse_depth * (world_from_host.translation - centre);
     };
     const Eigen::Vector3d from_a = seen_from(centre_a), from_b = seen_from(centre_b);
-    angles.push_back(std::atan2(from_a.cross(from_b).norm(), from_a.dot(from_b)));
+    changes.push_back(std::max(std::atan2(from_a.cross(from_b).norm(), from_a.dot(from_b)),
+                               std::abs(std::log(from_a.norm() / from_b.norm()))));
   }
-  if (angles.empty()) return M_PI;
-  const auto at = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() * 3 / 4);
-  std::nth_element(angles.begin(), at, angles.end());
+  if (changes.empty()) return M_PI;
+  const auto at = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() * 3 / 4);
+  std::nth_element(changes.begin(), at, changes.end());
   return *at;
 }
 
@@ -54,7 +56,7 @@ bool was_here_before(const Map& map, const Keyframe& keyframe, const CullingOpti
     const Eigen::Matrix3d turn =
         keyframe.camera_from_world.rotation * before.camera_from_world.rotation.transpose();
     if (so3_log(turn).norm() * 180 / M_PI > options.revisit_rotation) continue;
-    if (typical_parallax(map, keyframe, before) * 180 / M_PI < options.revisit_parallax) return true;
+    if (change_of_view(map, keyframe, before) < options.revisit_change) return true;
   }
   return false;
 }

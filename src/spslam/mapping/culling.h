@@ -17,7 +17,7 @@ struct CullingOptions {
   int revisit_gap = 50;
   int revisit_shared = 30;
   double revisit_rotation = 10;
-  double revisit_parallax = 6;
+  double revisit_change = 0.1;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -36,8 +36,11 @@ struct CullingOptions {
     visit(self.revisit_shared,
           {"revisit_shared", "", "landmarks that both must see for it to be the same place", 1, 10000});
     visit(self.revisit_rotation, {"revisit_rotation", "deg", "largest rotation between them", 0.1, 90});
-    visit(self.revisit_parallax,
-          {"revisit_parallax", "deg", "largest angle under which a shared landmark sees both", 0.1, 90});
+    visit(self.revisit_change, {"revisit_change", "",
+                                "angle (rad) between the rays to a landmark, and relative change of its "
+                                "distance, that most landmarks do "
+                                "not exceed",
+                                0.001, 2});
   }
 };
 

@@ -60,7 +60,7 @@ LocalMapView LocalMapper::view(KeyframeId newest) {
   for (const KeyframeId id : ids) {
     const Keyframe& keyframe = *map_.find(id);
     out.keyframes.push_back(
-        {id, keyframe.frame, keyframe.timestamp, keyframe.camera_from_world, keyframe.left, {}, {}, {}});
+        {id, keyframe.frame, keyframe.timestamp, keyframe.camera_from_world, keyframe.left});
     for (const Sighting& sighting : keyframe.sightings)
       if (const Landmark& landmark = *map_.find(sighting.landmark); landmark.host == id)
         out.landmarks.push_back(landmark);

@@ -43,8 +43,8 @@ KeyframeEvidence Tracker::evidence(const WindowFrame& present) const {
 
 void Tracker::make_keyframe(const Frame& frame, WindowFrame& present) {
   present.keyframe = {keyframes_++};
-  map_.hosts[present.keyframe] = {
-      present.keyframe, present.id, present.timestamp, present.camera_from_world, frame.left, {}, {}, {}};
+  map_.hosts[present.keyframe] = {present.keyframe, present.id, present.timestamp, present.camera_from_world,
+                                  frame.left};
   for (NewLandmark& fresh : find_new_landmarks(map_, frame, present.sightings, front_end_, options_)) {
     fresh.landmark.id = fresh.sighting.landmark = {landmarks_++};
     fresh.landmark.host = present.keyframe;

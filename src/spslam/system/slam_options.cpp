@@ -47,10 +47,15 @@ SlamOptions preset_options(Preset preset) {
   if (preset == Preset::kSpSlam) return {};
   SlamOptions options = feature_slam_options();
   TrackerOptions& t = options.tracker;
+  SolverOptions& adjustment = options.mapper.adjustment.solver;
   if (preset == Preset::kPaper) {
     t.stereo = paper_stereo_options();
+    adjustment.loss = Loss::kPseudoHuber;  // 3.2.2
     return options;
   }
+  adjustment.loss = Loss::kHuber;
+  adjustment.loss_scale = 2.4;
+  options.mapper.retriangulation.enabled = false;
   t.stereo = baseline_stereo_options();
   t.segment = false;
   t.far.enabled = false;
