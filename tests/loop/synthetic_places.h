@@ -28,31 +28,32 @@ inline Descriptor with_noise(Descriptor descriptor, int bits, Random& random) {
 
 class SyntheticPlaces {
  public:
-  SyntheticPlaces(int places, int features, std::uint64_t seed = 1) : random_(seed) {
+  SyntheticPlaces(int places, int features, std::uint64_t seed = 1)
+      : places_(static_cast<std::size_t>(places)) {
+    Random random(seed);
     std::vector<Descriptor> kinds(300);
-    for (Descriptor& kind : kinds) kind = random_descriptor(random_);
-    places_.resize(static_cast<std::size_t>(places));
+    for (Descriptor& kind : kinds) kind = random_descriptor(random);
     for (auto& place : places_)
-      for (int i = 0; i < features; ++i) place.push_back(with_noise(kinds[random_.below(300)], 60, random_));
+      for (int i = 0; i < features; ++i) place.push_back(with_noise(kinds[random.below(300)], 60, random));
   }
-  // Another image of the place at each call: three quarters of its features, with noise in their bits, and as
-  // many others as are missing.
-  std::vector<Descriptor> image(int place, int noisy_bits = 8) {
+  // A view of the place: three quarters of its features with noise in their bits, and as many others as are
+  // missing.
+  std::vector<Descriptor> image(int place, int view = 0) const {
+    constexpr int kNoisyBits = 8;
+    Random random(static_cast<std::uint64_t>(1000 + view) * 100000 + static_cast<std::uint64_t>(place));
     std::vector<Descriptor> out;
     for (const Descriptor& descriptor : places_[static_cast<std::size_t>(place)])
-      out.push_back(random_.uniform() < 0.75 ? with_noise(descriptor, noisy_bits, random_)
-                                             : random_descriptor(random_));
+      out.push_back(random.uniform() < 0.75 ? with_noise(descriptor, kNoisyBits, random)
+                                            : random_descriptor(random));
     return out;
   }
-  std::vector<std::vector<Descriptor>> images_of_all(int noisy_bits = 8) {
+  std::vector<std::vector<Descriptor>> images_of_all() const {
     std::vector<std::vector<Descriptor>> out;
-    for (int place = 0; place < static_cast<int>(places_.size()); ++place)
-      out.push_back(image(place, noisy_bits));
+    for (int place = 0; place < static_cast<int>(places_.size()); ++place) out.push_back(image(place));
     return out;
   }
 
  private:
-  Random random_;
   std::vector<std::vector<Descriptor>> places_;
 };
 
