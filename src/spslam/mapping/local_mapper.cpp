@@ -44,6 +44,26 @@ void LocalMapper::adjust(const std::function<bool()>& stop, MappingResult& resul
   result.outliers = erase_outliers(local, options_.adjustment.outlier_sigmas, map_);
 }
 
+LocalMapView LocalMapper::apply(const MapCorrection& correction) {
+  std::map<KeyframeId, SE3> corrected;
+  for (const auto& [id, pose] : correction.camera_from_world)
+    if (map_.find(id) && pose.is_finite()) corrected[id] = pose;
+  if (!corrected.empty()) {
+    const auto& [newest, pose] = *corrected.rbegin();
+    const SE3 old_from_new = map_.find(newest)->camera_from_world.inverse() * pose;
+    for (const auto& [id, keyframe] : map_.keyframes())
+      if (id > newest) corrected[id] = (keyframe.camera_from_world * old_from_new).normalized();
+  }
+  for (const auto& [id, pose] : corrected) map_.set_pose(id, pose);
+  for (const auto& [id, inverse_depth] : correction.inverse_depths)
+    if (const Landmark* landmark = map_.find(id); landmark && std::isfinite(inverse_depth))
+      map_.set_estimate(id, inverse_depth, landmark->information);
+  for (const auto& [kept, gone] : correction.fused) map_.fuse(map_.resolve(kept), map_.resolve(gone));
+  for (const LoopEdge& edge : correction.edges)
+    if (map_.find(edge.older) && map_.find(edge.newer)) map_.add(edge);
+  return view(map_.keyframes().rbegin()->first);
+}
+
 LocalMapView LocalMapper::view(KeyframeId newest) {
   std::vector<KeyframeId> ids = {newest};
   for (const Covisible& other : map_.covisible(newest))

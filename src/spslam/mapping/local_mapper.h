@@ -47,6 +47,9 @@ class LocalMapper {
 
   // Takes a keyframe in. `stop` says that a newer one waits: adjustment ends with what it has.
   MappingResult insert(KeyframeProposal proposal, const std::function<bool()>& stop = {});
+  // Takes over a closed loop or an adjustment of the whole map. Keyframes that it does not know, being newer
+  // than what it was computed from, move along with the newest one that it knows.
+  LocalMapView apply(const MapCorrection& correction);
   const Map& map() const { return map_; }
 
  private:
