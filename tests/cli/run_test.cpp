@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr const char* kFiles[] = {
-    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv",
-    "config.yaml",        "metrics.json",         "timing.json", "log.txt"};
+constexpr const char* kFiles[] = {"trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",
+                                  "keyframes.csv",      "mapping.csv",          "config.yaml",
+                                  "metrics.json",       "timing.json",          "log.txt"};
 
 // A rendered data set and a place for results.
 class Run : public testing::Test {

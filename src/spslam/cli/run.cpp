@@ -111,6 +111,7 @@ std::exception_ptr track_frames(const RunArguments& arguments, const Dataset& da
   record.wall_seconds = seconds_since(start);
   record.trajectory = slam.trajectory();
   record.keyframes = slam.keyframes();
+  record.mapping = slam.mapping();
   record.landmarks = slam.landmark_count();
   return failure;
 }
@@ -145,6 +146,7 @@ void write_results(const ResultFolder& folder, const Dataset& dataset, const Run
   write("trajectory_kitti.txt", format_kitti_poses(trajectory_of_every_frame(record)));
   write("frames.csv", frames_csv(record));
   write("keyframes.csv", keyframes_csv(record));
+  write("mapping.csv", mapping_csv(record));
   write("timing.json", timing_json(record, dataset.description()));
   if (evaluation) write("metrics.json", json_report(*evaluation));
   if (failure) std::rethrow_exception(failure);

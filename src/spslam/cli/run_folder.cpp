@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLogFile = "log.txt";
 // Whatever a run, or a report on it, leaves.
-constexpr const char* kResults[] = {"trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",
-                                    "keyframes.csv",      "config.yaml",          "metrics.json",
-                                    "timing.json",        "report.html",          kLogFile};
+constexpr const char* kResults[] = {
+    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv", "mapping.csv", "loops.csv",
+    "config.yaml",        "metrics.json",         "timing.json", "report.html",   kLogFile};
 
 void prepare_folder(const fs::path& folder, bool overwrite) {
   if (fs::exists(folder) && !fs::is_directory(folder))

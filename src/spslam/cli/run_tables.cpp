@@ -136,6 +136,19 @@ std::string keyframes_csv(const RunRecord& record) {
   return text;
 }
 
+std::string mapping_csv(const RunRecord& record) {
+  std::string text =
+      "keyframe,ms,retriangulated,iterations,initial_cost,final_cost,outliers,culled_landmarks,culled_"
+      "keyframes,"
+      "map_keyframes,map_landmarks\n";
+  for (const MappingInfo& m : record.mapping)
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", m.keyframe.value, csv_number(1e3 * m.seconds, 3),
+                    m.retriangulated, m.iterations, csv_small(m.initial_cost), csv_small(m.final_cost),
+                    m.outliers, m.culled_landmarks, m.culled_keyframes, m.keyframes, m.landmarks);
+  return text;
+}
+
 Trajectory stamped_trajectory(const RunRecord& record) {
   Trajectory trajectory;
   for (const TrajectoryPose& pose : record.trajectory)
@@ -164,6 +177,9 @@ std::string timing_json(const RunRecord& record, const std::string& dataset) {
   }
   stages["decode"] = spread_of(decode);
   for (const Stage& stage : kStages) stages[stage.name] = spread_of(stage_seconds(record, stage.seconds));
+  std::vector<double> mapping;
+  for (const MappingInfo& m : record.mapping) mapping.push_back(m.seconds);
+  stages["mapping"] = spread_of(mapping);
   const double count = static_cast<double>(record.frames.size());
   const Json json = {{"dataset", dataset},
                      {"frames_given", record.frames.size()},

@@ -14,6 +14,12 @@ class MotionModel {
   // The pose that the last two imply at a time; the last one where there is only one.
   SE3 predict(double timestamp) const;
   void add(double timestamp, const SE3& camera_from_world);
+  // Stands still here: what was known of the velocity is forgotten.
+  void restart(double timestamp, const SE3& camera_from_world) {
+    has_pose_ = false;
+    velocity_.setZero();
+    add(timestamp, camera_from_world);
+  }
   void correct(const SE3& camera_from_world) { last_ = camera_from_world; }
   double last_timestamp() const { return last_time_; }
   const SE3& last_pose() const { return last_; }

@@ -32,15 +32,13 @@ NewLandmark make_landmark(const ActiveMap& map, const Frame& frame, const Keypoi
   return out;
 }
 
-std::optional<Disparity> measure(const Frame& frame, const Keypoint& keypoint,
-                                 const TrackerOptions& options) {
-  const Eigen::Vector2f at(keypoint.x, keypoint.y);
-  const auto start =
-      search_row(frame.left, at, frame.right, options.alignment.patch_radius, options.row_search);
-  if (!start) return std::nullopt;
-  const auto disparity = align_disparity(frame, at, *start, 1, options);
-  if (!disparity) return std::nullopt;
-  return Disparity{*disparity, options.follow.disparity_sigma};
+std::vector<std::optional<double>> measure_all(const Frame& frame, const std::vector<Keypoint>& keypoints,
+                                               const TrackerOptions& options) {
+  std::vector<std::optional<double>> out(keypoints.size());
+  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t i) {
+    out[i] = measure_disparity(frame, {keypoints[i].x, keypoints[i].y}, options);
+  });
+  return out;
 }
 
 // The frame's features that are not near a sighting, at most `count`, with the stereo stage's disparities.
@@ -69,6 +67,30 @@ std::vector<NewLandmark> from_stereo_stage(const ActiveMap& map, const Frame& fr
 
 }  // namespace
 
+std::optional<double> measure_disparity(const Frame& frame, const Eigen::Vector2f& left,
+                                        const TrackerOptions& options) {
+  const auto start =
+      search_row(frame.left, left, frame.right, options.alignment.patch_radius, options.row_search);
+  return start ? align_disparity(frame, left, *start, 1, options) : std::nullopt;
+}
+
+KeyframeFeatures describe(const Frame& frame, const StereoRig& rig, const DisparityOffset& offset,
+                          FrontEnd& front_end, const TrackerOptions& options) {
+  Features features = front_end.all_features();
+  const std::vector<std::optional<double>> disparities = measure_all(frame, features.keypoints, options);
+  KeyframeFeatures out;
+  const double scale = rig.disparity_per_inverse_depth(), sigma = options.follow.disparity_sigma;
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    const Keypoint& k = features.keypoints[i];
+    const double corrected = disparities[i] ? *disparities[i] - offset.at(rig, k.x, k.y) : 0;
+    out.inverse_depths.push_back(static_cast<float>(corrected / scale));
+    out.information.push_back(disparities[i] ? static_cast<float>(scale * scale / (sigma * sigma)) : 0);
+  }
+  out.keypoints = std::move(features.keypoints);
+  out.descriptors = std::move(features.descriptors);
+  return out;
+}
+
 std::vector<NewLandmark> find_new_landmarks(const ActiveMap& map, const Frame& frame,
                                             const std::vector<Sighting>& sightings, FrontEnd& front_end,
                                             const TrackerOptions& options) {
@@ -80,14 +102,12 @@ std::vector<NewLandmark> find_new_landmarks(const ActiveMap& map, const Frame& f
   for (const Sighting& s : sightings)
     occupied.emplace_back(static_cast<float>(s.measured.x()), static_cast<float>(s.measured.y()));
   const Features corners = front_end.new_corners(occupied, count);
-  std::vector<std::optional<Disparity>> disparities(corners.keypoints.size());
-  tbb::parallel_for(std::size_t{0}, disparities.size(),
-                    [&](std::size_t i) { disparities[i] = measure(frame, corners.keypoints[i], options); });
+  const std::vector<std::optional<double>> disparities = measure_all(frame, corners.keypoints, options);
   std::vector<NewLandmark> found;
   for (std::size_t i = 0; i < disparities.size(); ++i)
     if (disparities[i])
-      found.push_back(
-          make_landmark(map, frame, corners.keypoints[i], corners.descriptors[i], *disparities[i]));
+      found.push_back(make_landmark(map, frame, corners.keypoints[i], corners.descriptors[i],
+                                    {*disparities[i], options.follow.disparity_sigma}));
   return found;
 }
 

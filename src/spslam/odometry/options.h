@@ -129,6 +129,7 @@ struct StateOptions {
   int min_inliers = 12;
   double max_covariance = 1.0;
   double coast_time = 2.0;
+  int relocalization_frames = 10;
   double coast_acceleration = 0.5;
   double coast_turn = 0.3;
 
@@ -139,6 +140,10 @@ struct StateOptions {
           {"max_covariance", "m", "a motion less certain than this is not taken", 1e-3, 1e6});
     visit(self.coast_time,
           {"coast_time", "s", "how long constant velocity may carry before the state is lost", 0, 3600});
+    visit(
+        self.relocalization_frames,
+        {"relocalization_frames", "",
+         "usable frames that are looked for in the map after a loss before tracking begins anew", 0, 100000});
     visit(self.coast_acceleration,
           {"coast_acceleration", "m/s^2", "acceleration assumed while coasting (1 sigma)", 1e-3, 100});
     visit(self.coast_turn,

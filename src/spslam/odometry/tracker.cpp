@@ -4,6 +4,7 @@
 #include "spslam/odometry/tracker.h"
 
 #include "spslam/odometry/follow.h"
+#include "spslam/odometry/new_landmarks.h"
 
 namespace spslam {
 namespace {
@@ -57,6 +58,8 @@ TrackerOutput Tracker::track(const StereoFrame& pair) {
   } else {
     const Frame frame = front_end_.process(pair, result.frame);  // 3.1.1, 3.1.2
     timer.end(&StageTimes::front_end);
+    // A window that ended with a loss is no beginning for another.
+    if (status_ == TrackStatus::kLost) settle(0, out);
     if (status_ == TrackStatus::kInitializing || status_ == TrackStatus::kLost)
       begin(frame, result);
     else if (!measure_pose(frame, result, timer))
@@ -142,10 +145,40 @@ bool Tracker::is_sound(const MotionEstimate& motion, const std::vector<Sighting>
   return result.reason.empty();
 }
 
-// The first keyframe, or a new one where the last known velocity has carried after everything was lost.
+// Where tracking begins: at the origin, or where the map knows the frame to be, or, after a loss in which
+// that has failed often enough, where the last known velocity has carried. Nothing: not yet.
+std::optional<SE3> Tracker::starting_pose(const Frame& frame, TrackResult& result) {
+  const bool was_lost = status_ == TrackStatus::kLost;
+  if (!was_lost && !must_localize_) return SE3{};
+  if (relocalize_ && (must_localize_ || relocalizations_ < options_.state.relocalization_frames)) {
+    ++relocalizations_;
+    const auto found = relocalize_(describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
+    if (found) {
+      result.reason = "found in the map";
+      return found;
+    }
+    result.reason = "not recognized in the map";
+    return std::nullopt;
+  }
+  result.reason = "begun anew where the last known velocity led";
+  return motion_.predict(frame.timestamp);
+}
+
+void Tracker::continue_map(KeyframeId next_keyframe, LandmarkId next_landmark) {
+  keyframes_ = next_keyframe.value;
+  landmarks_ = next_landmark.value;
+  must_localize_ = true;
+}
+
+// The first keyframe, or a new one after everything was lost.
 void Tracker::begin(const Frame& frame, TrackResult& result) {
   const bool was_lost = status_ == TrackStatus::kLost;
-  const SE3 pose = was_lost ? motion_.predict(frame.timestamp) : SE3{};
+  const std::optional<SE3> start = starting_pose(frame, result);
+  if (!start) {
+    if (was_lost) coast(result.reason, result);
+    return;
+  }
+  const SE3 pose = *start;
   for (ActiveLandmark& active : map_.landmarks) active.missed = options_.follow.max_missed + 1;
   WindowFrame present{frame.id, frame.timestamp, pose, {}, {}};
   make_keyframe(frame, present);
@@ -158,9 +191,9 @@ void Tracker::begin(const Frame& frame, TrackResult& result) {
     if (was_lost) coast(result.reason, result);
     return;
   }
-  if (was_lost) result.reason = "begun anew where the last known velocity led";
   map_.window.push_back(std::move(present));
-  motion_.add(frame.timestamp, pose);
+  motion_.restart(frame.timestamp, pose);
+  relocalizations_ = 0;
   status_ = TrackStatus::kTracking;
 }
 

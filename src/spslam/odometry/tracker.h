@@ -30,6 +30,9 @@ struct TrackerOutput {
   std::vector<FramePose> settled;           // frames that odometry will not change any more
 };
 
+// Finds a frame in the map by what it looks like: camera_from_world, or nothing if it is not surely there.
+using Relocalize = std::function<std::optional<SE3>(const KeyframeFeatures&)>;
+
 class Tracker {
  public:
   // Throws OptionError or InputError for options or a rig that are not usable.
@@ -40,6 +43,10 @@ class Tracker {
   // Takes over what the mapper has corrected since: poses and inverse depths of what is still followed, and
   // landmarks that should be in sight again.
   void adopt(const LocalMapView& view);
+  // What a lost frame is looked for with. must_localize: there is a map already, in which the first frame has
+  // to be found; the ids to be given go on behind those of the map.
+  void set_relocalizer(Relocalize relocalize) { relocalize_ = std::move(relocalize); }
+  void continue_map(KeyframeId next_keyframe, LandmarkId next_landmark);
   // While the mapper is behind, keyframes are made only where points are lost or the motion becomes
   // uncertain.
   void set_mapper_busy(bool busy) { mapper_is_busy_ = busy; }
@@ -65,6 +72,7 @@ class Tracker {
   bool is_sound(const MotionEstimate& motion, const std::vector<Sighting>& sightings,
                 TrackResult& result) const;
   void begin(const Frame& frame, TrackResult& result);
+  std::optional<SE3> starting_pose(const Frame& frame, TrackResult& result);
   void coast(const std::string& reason, TrackResult& result);
   void finish_frame(TrackerOutput& out);
 
@@ -88,6 +96,9 @@ class Tracker {
       Matrix6d::Identity() * 1e-12;  // of the newest frame against the landmarks it saw
   std::int64_t frames_ = 0, keyframes_ = 0, landmarks_ = 0;  // ids given
   bool mapper_is_busy_ = false;
+  Relocalize relocalize_;
+  bool must_localize_ = false;
+  int relocalizations_ = 0;  // tried since the loss
   int frames_since_keyframe_ = 0, tracked_before_ = 0;
   SE3 keyframe_pose_;                             // camera_from_world of the last keyframe when it was made
   std::vector<SeenByKeyframe> seen_by_keyframe_;  // ascending
