@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "spslam/alignment/pyramid.h"
@@ -67,15 +66,6 @@ struct LoopEdge {
   KeyframeId older, newer;
   SE3 newer_from_older;
   double weight = 1;  // inliers that it rests on
-};
-
-// What closing a loop, or adjusting the whole map, changes; applied by the map's only writer, who leaves out
-// what has gone meanwhile.
-struct MapCorrection {
-  std::vector<LoopEdge> edges;                                // to add
-  std::vector<std::pair<KeyframeId, SE3>> camera_from_world;  // new poses; landmarks move with their hosts
-  std::vector<std::pair<LandmarkId, double>> inverse_depths;  // new ones, 1/m
-  std::vector<std::pair<LandmarkId, LandmarkId>> fused;       // (kept, gone)
 };
 
 // What the tracker hands to the mapper when it wants a keyframe: the keyframe with all it saw, the landmarks

@@ -5,8 +5,9 @@
 
 namespace spslam {
 
-LocalMapper::LocalMapper(const StereoRig& rig, const OrbOptions& orb, const LocalMapperOptions& options)
-    : rig_(rig), options_(options), extractor_(orb) {
+LocalMapper::LocalMapper(const StereoRig& rig, const OrbOptions& orb, const LocalMapperOptions& options,
+                         Map map)
+    : rig_(rig), options_(options), extractor_(orb), map_(std::move(map)) {
   rig.check();
   check_options(options);
 }
@@ -44,24 +45,11 @@ void LocalMapper::adjust(const std::function<bool()>& stop, MappingResult& resul
   result.outliers = erase_outliers(local, options_.adjustment.outlier_sigmas, map_);
 }
 
-LocalMapView LocalMapper::apply(const MapCorrection& correction) {
-  std::map<KeyframeId, SE3> corrected;
-  for (const auto& [id, pose] : correction.camera_from_world)
-    if (map_.find(id) && pose.is_finite()) corrected[id] = pose;
-  if (!corrected.empty()) {
-    const auto& [newest, pose] = *corrected.rbegin();
-    const SE3 old_from_new = map_.find(newest)->camera_from_world.inverse() * pose;
-    for (const auto& [id, keyframe] : map_.keyframes())
-      if (id > newest) corrected[id] = (keyframe.camera_from_world * old_from_new).normalized();
-  }
-  for (const auto& [id, pose] : corrected) map_.set_pose(id, pose);
-  for (const auto& [id, inverse_depth] : correction.inverse_depths)
-    if (const Landmark* landmark = map_.find(id); landmark && std::isfinite(inverse_depth))
-      map_.set_estimate(id, inverse_depth, landmark->information);
-  for (const auto& [kept, gone] : correction.fused) map_.fuse(map_.resolve(kept), map_.resolve(gone));
-  for (const LoopEdge& edge : correction.edges)
-    if (map_.find(edge.older) && map_.find(edge.newer)) map_.add(edge);
-  return view(map_.keyframes().rbegin()->first);
+LocalMapView LocalMapper::correct(const std::function<void(Map&)>& write) {
+  write(map_);
+  LocalMapView out = view(map_.keyframes().rbegin()->first);
+  out.corrected = true;
+  return out;
 }
 
 LocalMapView LocalMapper::view(KeyframeId newest) {

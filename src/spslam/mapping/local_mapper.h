@@ -42,14 +42,14 @@ struct MappingResult {
 
 class LocalMapper {
  public:
-  // Throws OptionError.
-  LocalMapper(const StereoRig& rig, const OrbOptions& orb, const LocalMapperOptions& options);
+  // Throws OptionError. map: what is known already.
+  LocalMapper(const StereoRig& rig, const OrbOptions& orb, const LocalMapperOptions& options, Map map = {});
 
   // Takes a keyframe in. `stop` says that a newer one waits: adjustment ends with what it has.
   MappingResult insert(KeyframeProposal proposal, const std::function<bool()>& stop = {});
-  // Takes over a closed loop or an adjustment of the whole map. Keyframes that it does not know, being newer
-  // than what it was computed from, move along with the newest one that it knows.
-  LocalMapView apply(const MapCorrection& correction);
+  // Lets somebody else's correction (a closed loop, an adjustment of the whole map) be written, so that there
+  // is one writer, and says what the neighbourhood of the newest keyframe looks like then.
+  LocalMapView correct(const std::function<void(Map&)>& write);
   const Map& map() const { return map_; }
 
  private:
