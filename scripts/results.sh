@@ -4,6 +4,7 @@
 # Makes the tables of docs/RESULTS.md: runs the presets, or one changed switch after the other, on the sequences and prints Markdown.
 #   scripts/results.sh              presets sp-slam, paper, baseline
 #   scripts/results.sh --ablation   sp-slam with one thing changed a row
+#   scripts/results.sh --threads    sp-slam with its threads side by side, RUNS (10) times, against the sequential run
 # From the environment:
 #   DATA       folder of the sequences (../shared/data); those that are not there are left out
 #   SEQUENCES  their names; all known ones unless given
@@ -76,6 +77,32 @@ presets() {
   done
 }
 
+# ATE of RUNS threaded runs (each differs) as "median least most" beside that of the sequential one.
+threads() {
+  local sequence run ate name
+  [ "$runs" -gt 1 ] || runs=10
+  echo "| sequence | sequential ATE RMSE m | threads: median | least | most | mapping ms a keyframe, median / p95 |"
+  echo "|---|---|---|---|---|---|"
+  for sequence in "${sequences[@]}"; do
+    [ -f "$data/$sequence/poses.txt" ] || continue
+    "$program" run "$data/$sequence" --output "$output/$sequence.once.1" --overwrite --sequential --quiet
+    local ates=() mapping
+    for ((run = 1; run <= runs; ++run)); do
+      name=$sequence.threads
+      "$program" run "$data/$sequence" --output "$output/$name.1" --overwrite --quiet
+      read -r ate _ < <(accuracy "$sequence" "$name")
+      ates+=("$ate")
+    done
+    mapping=$(awk -F, 'NR > 1 { print $2 }' "$output/$sequence.threads.1/mapping.csv" | sort -g |
+      awk '{ v[NR] = $1 } END { printf "%.1f / %.1f", v[int((NR + 1) / 2)], v[int(NR * 0.95 + 0.5)] }')
+    read -r ate _ < <(accuracy "$sequence" "$sequence.once")
+    printf '%s\n' "${ates[@]}" | sort -g | awk -v sequence="$sequence" -v once="$ate" -v mapping="$mapping" '
+      { v[NR] = $1 }
+      END { m = NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2
+            printf "| %s | %s | %.4f | %.4f | %.4f | %s |\n", sequence, once, m, v[1], v[NR], mapping }'
+  done
+}
+
 ablation_row() {  # TITLE [key=value ...]
   local title=$1 sequence setting name line ate scale
   local arguments=()
@@ -100,8 +127,12 @@ ablation() {
   ablation_row "nothing"
   local change
   for change in segment=false far.enabled=false rig.estimate=false window_frames=1 window_frames=5 keyframe.entropy=false \
-    landmarks.levels=8 motion.loss=pseudo-huber motion.loss=huber window.loss=pseudo-huber stereo_by_descriptor=true; do
+    recall.enabled=false landmarks.levels=8 motion.loss=pseudo-huber motion.loss=huber window.loss=pseudo-huber stereo_by_descriptor=true; do
     ablation_row "\`tracker.$change\`" "tracker.$change"
+  done
+  for change in retriangulation.enabled=false adjustment.enabled=false adjustment.solver.loss=pseudo-huber \
+    adjustment.uniform_weights=false culling.enabled=false; do
+    ablation_row "\`mapper.$change\`" "mapper.$change"
   done
   ablation_row "\`tracker.follow.identity=descriptor\`" tracker.follow.identity=descriptor
   ablation_row "... and \`tracker.follow.align=false\`" tracker.follow.identity=descriptor tracker.follow.align=false
@@ -111,5 +142,6 @@ mkdir -p "$output"
 case "${1:-}" in
   "") presets ;;
   --ablation) ablation ;;
-  *) echo "usage: scripts/results.sh [--ablation]" >&2; exit 2 ;;
+  --threads) threads ;;
+  *) echo "usage: scripts/results.sh [--ablation | --threads]" >&2; exit 2 ;;
 esac
