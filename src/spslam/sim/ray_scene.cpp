@@ -42,34 +42,4 @@ RayScene::RayScene(RTCDevice device, Mesh mesh) : mesh_(std::move(mesh)), scene_
   for (std::size_t i = 0; i < 4 * quads; ++i) radius_ = std::max(radius_, (mesh_.points[i] - centre_).norm());
 }
 
-void RayGroup::set(int lane, const Vector3f& origin, const Vector3f& direction, float near, float far) {
-  RTCRay16& ray = data.ray;
-  active[static_cast<std::size_t>(lane)] = -1;
-  boat[static_cast<std::size_t>(lane)] = -1;
-  ray.org_x[lane] = origin.x(), ray.org_y[lane] = origin.y(), ray.org_z[lane] = origin.z();
-  ray.dir_x[lane] = direction.x(), ray.dir_y[lane] = direction.y(), ray.dir_z[lane] = direction.z();
-  ray.tnear[lane] = near, ray.tfar[lane] = far;
-  ray.time[lane] = 0, ray.mask[lane] = ~0U, ray.id[lane] = 0, ray.flags[lane] = 0;
-  data.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-  data.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-}
-
-void RayGroup::skip(int lane) {
-  set(lane, Vector3f::Zero(), Vector3f::UnitZ(), 0, 0);
-  active[static_cast<std::size_t>(lane)] = 0;
-}
-
-Vector3f RayGroup::origin(int lane) const {
-  return {data.ray.org_x[lane], data.ray.org_y[lane], data.ray.org_z[lane]};
-}
-
-Vector3f RayGroup::direction(int lane) const {
-  return {data.ray.dir_x[lane], data.ray.dir_y[lane], data.ray.dir_z[lane]};
-}
-
-Target RayGroup::target(int lane) const {
-  if (boat[static_cast<std::size_t>(lane)] >= 0) return Target::kBoat;
-  return data.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? Target::kNone : Target::kFixed;
-}
-
 }  // namespace spslam::sim

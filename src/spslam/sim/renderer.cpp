@@ -66,6 +66,7 @@ class TileRenderer {
     std::array<PixelSum, static_cast<std::size_t>(kTile) * kTile> sums{};
     const int columns = std::min(kTile, width_ - left), rows = std::min(kTile, height_ - top);
     std::vector<Shot> shots;
+    shots.reserve(sums.size() * static_cast<std::size_t>(std::max(options_.samples, options_.edge_samples)));
     // Blocks of 4 x 4 pixels: neighbouring rays run through the same branches of the tree.
     for (int sample = 0; sample < options_.samples; ++sample)
       for (int block = 0; block < kTile * kTile; ++block) {
@@ -117,9 +118,11 @@ class TileRenderer {
         // evenly.
         const auto n = static_cast<float>(shot.sample);
         const float x = unit(pixel) + 0.7548777F * n, y = unit(mix(pixel, 77)) + 0.5698403F * n;
+        const float whole_x = static_cast<float>(static_cast<int>(x)),
+                    whole_y = static_cast<float>(static_cast<int>(y));
         rays.set(lane, camera_.origin,
-                 camera_.direction(static_cast<float>(left + shot.x) - 0.5F + (x - std::floor(x)),
-                                   static_cast<float>(top + shot.y) - 0.5F + (y - std::floor(y))),
+                 camera_.direction(static_cast<float>(left + shot.x) - 0.5F + (x - whole_x),
+                                   static_cast<float>(top + shot.y) - 0.5F + (y - whole_y)),
                  0.02F, 5000);
       }
       Lanes result{};

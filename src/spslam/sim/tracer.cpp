@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spslam/base/simd.h"
 #include "spslam/sim/hash.h"
 #include "spslam/sim/light.h"
 
@@ -58,29 +59,45 @@ Instant Tracer::instant(double time) const {
   return result;
 }
 
-void Tracer::intersect(const Instant& instant, RayGroup& rays) const {
+void Tracer::intersect(const Instant& instant, RayGroup& rays, RTCIntersectContextFlags kind) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  context.flags = kind;
   rtcIntersect16(rays.active.data(), fixed_->handle(), &context, &rays.data);
   for (std::size_t i = 0; i < boats_.size(); ++i) intersect_boat(i, instant.boats[i], rays);
 }
 
+// Most rays pass most boats far away. Written so that the compiler makes vectors of it.
+SPSLAM_SIMD bool Tracer::pass_near(const RayGroup& rays, const Vector3f& centre, float radius,
+                                   std::array<bool, kLanes>& near) {
+  const RTCRay16& ray = rays.data.ray;
+  const float cx = centre.x(), cy = centre.y(), cz = centre.z(), limit = radius * radius;
+  int count = 0;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const float dx = ray.dir_x[lane], dy = ray.dir_y[lane], dz = ray.dir_z[lane];
+    const float x = cx - ray.org_x[lane], y = cy - ray.org_y[lane], z = cz - ray.org_z[lane];
+    const float ahead = (x * dx + y * dy + z * dz) / (dx * dx + dy * dy + dz * dz);
+    const float along = ahead > 0 ? ahead : 0;
+    const float px = x - along * dx, py = y - along * dy, pz = z - along * dz;
+    const bool passes =
+        (px * px + py * py + pz * pz <= limit) & (rays.active[static_cast<std::size_t>(lane)] != 0);
+    near[static_cast<std::size_t>(lane)] = passes;
+    count += passes;
+  }
+  return count > 0;
+}
+
 void Tracer::intersect_boat(std::size_t index, const Vector3f& position, RayGroup& rays) const {
   const RayScene& boat = boats_[index];
-  const Vector3f centre = boat.centre() + position;
+  std::array<bool, kLanes> near;
+  if (!pass_near(rays, boat.centre() + position, boat.radius(), near)) return;
   RayGroup local;
-  bool any = false;
   for (int lane = 0; lane < kLanes; ++lane) {
     local.skip(lane);
-    if (!rays.active[static_cast<std::size_t>(lane)]) continue;
-    const Vector3f d = rays.direction(lane), o = rays.origin(lane);
-    const Vector3f to = centre - o;
-    const float along = std::max(0.0F, to.dot(d) / d.squaredNorm());
-    if ((to - along * d).squaredNorm() > boat.radius() * boat.radius()) continue;
-    local.set(lane, o - position, d, rays.data.ray.tnear[lane], rays.data.ray.tfar[lane]);
-    any = true;
+    if (near[static_cast<std::size_t>(lane)])
+      local.set(lane, rays.origin(lane) - position, rays.direction(lane), rays.data.ray.tnear[lane],
+                rays.data.ray.tfar[lane]);
   }
-  if (!any) return;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect16(local.active.data(), boat.handle(), &context, &local.data);
@@ -94,6 +111,18 @@ void Tracer::intersect_boat(std::size_t index, const Vector3f& position, RayGrou
     to.primID[lane] = from.primID[lane], to.u[lane] = from.u[lane], to.v[lane] = from.v[lane];
     to.Ng_x[lane] = from.Ng_x[lane], to.Ng_y[lane] = from.Ng_y[lane], to.Ng_z[lane] = from.Ng_z[lane];
     to.geomID[lane] = 0;
+  }
+}
+
+// The mesh is larger than the caches: what the hits will read is sent for while the first of them are shaded.
+void Tracer::send_for_hits(const RayGroup& rays) const {
+  const Mesh& mesh = fixed_->mesh();
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (!rays.active[static_cast<std::size_t>(lane)] || rays.target(lane) != Target::kFixed) continue;
+    const std::size_t quad = rays.data.hit.primID[lane];
+    __builtin_prefetch(&mesh.corners[4 * quad]);
+    __builtin_prefetch(&mesh.corners[4 * quad + 3]);
+    __builtin_prefetch(&mesh.quads[quad]);
   }
 }
 
@@ -137,7 +166,8 @@ void Tracer::radiance(const Instant& instant, RayGroup& rays, float pixel_angle,
     water_at[static_cast<std::size_t>(lane)] = t;
     if (t < rays.data.ray.tfar[lane]) rays.data.ray.tfar[lane] = t;
   }
-  intersect(instant, rays);
+  intersect(instant, rays, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+  send_for_hits(rays);
   bool any_water = false;
   for (int lane = 0; lane < kLanes; ++lane) {
     const auto i = static_cast<std::size_t>(lane);
@@ -186,7 +216,8 @@ Mirror mirror(const Vector3f& d, float slope_x, float slope_y) {
 
 void Tracer::reflect(const Instant& instant, RayGroup& rays, const Lanes& water_at, float pixel_angle,
                      const std::array<std::uint32_t, kLanes>& key, Lanes& result) const {
-  Lanes x{}, y{}, footprint{}, slope_x, slope_y, share{}, first{};
+  Lanes x{}, y{}, footprint, slope_x, slope_y, share{}, first{};
+  footprint.fill(-1);  // of lanes that are not asked for
   for (std::size_t i = 0; i < kLanes; ++i)
     if (rays.active[i]) {
       const Vector3f p = rays.origin(static_cast<int>(i)) + water_at[i] * rays.direction(static_cast<int>(i));
@@ -208,6 +239,7 @@ void Tracer::reflect(const Instant& instant, RayGroup& rays, const Lanes& water_
     mirrored.set(lane, {x[i], y[i], 0.0F}, bounce.direction, 0.005F, kFar);
   }
   intersect(instant, mirrored);
+  send_for_hits(mirrored);
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (!rays.active[i]) continue;
     const int lane = static_cast<int>(i);

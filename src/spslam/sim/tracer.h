@@ -26,7 +26,8 @@ class Tracer {
 
   Instant instant(double time) const;
   // Nearest hits of the group's active rays with all but the water.
-  void intersect(const Instant& instant, RayGroup& rays) const;
+  void intersect(const Instant& instant, RayGroup& rays,
+                 RTCIntersectContextFlags kind = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT) const;
   // Radiance along the active rays. `pixel_angle` is the angle a pixel covers in rad; `key` a random number a
   // lane.
   void radiance(const Instant& instant, RayGroup& rays, float pixel_angle,
@@ -34,7 +35,11 @@ class Tracer {
   std::size_t quad_count() const { return fixed_->mesh().quads.size(); }
 
  private:
+  // Which of the active rays pass a ball: whether any does.
+  static bool pass_near(const RayGroup& rays, const Eigen::Vector3f& centre, float radius,
+                        std::array<bool, kLanes>& near);
   void intersect_boat(std::size_t boat, const Eigen::Vector3f& position, RayGroup& rays) const;
+  void send_for_hits(const RayGroup& rays) const;
   float surface(const RayGroup& rays, int lane, float pixel_angle, std::uint32_t key) const;
   float fogged(float radiance, float distance) const;
   void reflect(const Instant& instant, RayGroup& rays, const Lanes& water_at, float pixel_angle,

@@ -101,24 +101,33 @@ void Water::Surface::slopes(const Lanes& x, const Lanes& y, const Lanes& footpri
   Lanes blur;
   for (std::size_t i = 0; i < kLanes; ++i) blur[i] = 1.5F * footprint[i] * footprint[i];
   add_waves(waves_.data(), waves_.size(), x.data(), y.data(), blur.data(), slope_x.data(), slope_y.data());
-  if (rain_ > 0) add_rings(x, y, slope_x, slope_y);
+  if (rain_ > 0) add_rings(x, y, footprint, slope_x, slope_y);
 }
 
 // A drop falls into each cell of a grid about once in kPeriod; its ring runs outwards and dies.
-void Water::Surface::add_rings(const Lanes& x, const Lanes& y, Lanes& slope_x, Lanes& slope_y) const {
+void Water::Surface::add_rings(const Lanes& x, const Lanes& y, const Lanes& footprint, Lanes& slope_x,
+                               Lanes& slope_y) const {
   constexpr float kCell = 0.22F, kSpeed = 0.25F, kLife = 0.7F;
-  const double period = kLife / std::min(1.0, 0.5 * rain_);
+  const double period = kLife / std::min(1.0, 0.5 * rain_), drops_before = time_ / period;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (footprint[lane] < 0) continue;
     const int ci = static_cast<int>(std::floor(x[lane] / kCell)),
               cj = static_cast<int>(std::floor(y[lane] / kCell));
     for (int j = cj - 1; j <= cj + 1; ++j)
       for (int i = ci - 1; i <= ci + 1; ++i) {
         const std::uint32_t key = mix(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), seed_);
-        const double clock = time_ / period + static_cast<double>(unit(key));
-        const auto age = static_cast<float>((clock - std::floor(clock)) * period);
+        const double clock = drops_before + static_cast<double>(unit(key));
+        const auto drops = static_cast<std::int64_t>(clock);  // time begins at 0
+        const auto age = static_cast<float>((clock - static_cast<double>(drops)) * period);
         if (age > kLife) continue;
-        const std::uint32_t drop =
-            mix(key, static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(clock))));
+        // The drop is somewhere in its cell: how far at least?
+        const float gap_x = std::max(
+            {kCell * static_cast<float>(i) - x[lane], x[lane] - kCell * static_cast<float>(i + 1), 0.0F});
+        const float gap_y = std::max(
+            {kCell * static_cast<float>(j) - y[lane], y[lane] - kCell * static_cast<float>(j + 1), 0.0F});
+        const float reach = kSpeed * age + 0.051F;
+        if (gap_x * gap_x + gap_y * gap_y > reach * reach) continue;
+        const std::uint32_t drop = mix(key, static_cast<std::uint32_t>(drops));
         const float dx = x[lane] - kCell * (static_cast<float>(i) + unit(drop));
         const float dy = y[lane] - kCell * (static_cast<float>(j) + unit(mix(drop, 3)));
         const float r = std::sqrt(dx * dx + dy * dy) + 1e-4F, off = r - kSpeed * age;

@@ -37,12 +37,13 @@ class Water {
   class Surface {
    public:
     // Slopes dz/dx, dz/dy at the points (x, y), m, where a pixel covers `footprint` m. Waves shorter than
-    // that are damped, as a sensor averages over them.
+    // that are damped, as a sensor averages over them. A lane of negative footprint is not worked out.
     void slopes(const Lanes& x, const Lanes& y, const Lanes& footprint, Lanes& slope_x, Lanes& slope_y) const;
 
    private:
     friend class Water;
-    void add_rings(const Lanes& x, const Lanes& y, Lanes& slope_x, Lanes& slope_y) const;
+    void add_rings(const Lanes& x, const Lanes& y, const Lanes& footprint, Lanes& slope_x,
+                   Lanes& slope_y) const;
     std::vector<std::array<float, 6>> waves_;  // k_x, k_y, phase, slope_x, slope_y, k squared (turns/m)
     double time_ = 0, rain_ = 0;
     std::uint32_t seed_ = 0;
