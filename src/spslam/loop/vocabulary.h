@@ -118,6 +118,7 @@ class Vocabulary {
   std::span<const std::uint32_t> first_child() const { return first_child_; }
 
  private:
+  friend Vocabulary built_in_vocabulary();
   Vocabulary(std::shared_ptr<const void> owner, std::span<const std::byte> bytes, const std::string& name);
   std::uint32_t descend(const Descriptor& descriptor, int steps) const;
 
@@ -129,7 +130,8 @@ class Vocabulary {
   int words_ = 0, branching_ = 0, levels_ = 0, images_ = 0;
 };
 
-// The vocabulary that comes with the library (config/vocabulary.spv, linked into it). Needs no file.
+// The vocabulary that comes with the library: config/vocabulary.spv, linked into it, so that it needs no
+// file. scripts/train_vocabulary.sh made it.
 Vocabulary built_in_vocabulary();
 
 }  // namespace spslam

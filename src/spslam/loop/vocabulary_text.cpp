@@ -165,10 +165,11 @@ void Vocabulary::write_dbow2_text(const std::filesystem::path& path) const {
   const auto out = fmt::appender(text);
   fmt::format_to(out, "{} {} 0 0\n", branching_, levels_);
   for (std::size_t node = 1; node < descriptors_.size(); ++node) {
-    std::array<std::uint8_t, sizeof(Descriptor)> bytes = {};
-    std::memcpy(bytes.data(), descriptors_[node].data(), bytes.size());
     const bool leaf = first_child_[node] == first_child_[node + 1];
-    fmt::format_to(out, "{} {} {} {}\n", parents[node], leaf ? 1 : 0, fmt::join(bytes, " "), weights_[node]);
+    fmt::format_to(out, "{} {}", parents[node], leaf ? 1 : 0);
+    for (const std::byte byte : std::as_bytes(std::span(descriptors_[node])))
+      fmt::format_to(out, " {}", std::to_integer<int>(byte));
+    fmt::format_to(out, " {}\n", weights_[node]);
   }
   write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
