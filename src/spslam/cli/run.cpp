@@ -14,10 +14,12 @@
 #include "spslam/cli/commands.h"
 #include "spslam/cli/run_folder.h"
 #include "spslam/cli/run_options.h"
+#include "spslam/cli/run_samples.h"
 #include "spslam/cli/run_signal.h"
 #include "spslam/cli/run_tables.h"
 #include "spslam/eval/evaluation.h"
 #include "spslam/io/prefetch.h"
+#include "spslam/system/map_file.h"
 
 namespace spslam {
 namespace {
@@ -30,6 +32,8 @@ struct RunArguments {
   DatasetOptions reading;
   int start = 0;
   int end = std::numeric_limits<int>::max();
+  int samples = 6;
+  std::string save_map, load_map;
   bool sequential = false, realtime = false, overwrite = false, quiet = false;
 };
 
@@ -112,6 +116,7 @@ std::exception_ptr track_frames(const RunArguments& arguments, const Dataset& da
   record.trajectory = slam.trajectory();
   record.keyframes = slam.keyframes();
   record.mapping = slam.mapping();
+  record.loops = slam.loops();
   record.landmarks = slam.landmark_count();
   return failure;
 }
@@ -147,6 +152,7 @@ void write_results(const ResultFolder& folder, const Dataset& dataset, const Run
   write("frames.csv", frames_csv(record));
   write("keyframes.csv", keyframes_csv(record));
   write("mapping.csv", mapping_csv(record));
+  write("loops.csv", loops_csv(record));
   write("timing.json", timing_json(record, dataset.description()));
   if (evaluation) write("metrics.json", json_report(*evaluation));
   if (failure) std::rethrow_exception(failure);
@@ -167,11 +173,19 @@ std::string report_text(const std::string& folder, const RunRecord& record,
   return text + "results      " + folder + "\n";
 }
 
+// The map to continue, if one is given; refused if it is of another rig.
+Map known_map(const RunArguments& arguments, const StereoRig& rig) {
+  if (arguments.load_map.empty()) return {};
+  SavedMap saved = load_map(arguments.load_map);
+  check_same_rig(saved.rig, rig);
+  return std::move(saved.map);
+}
+
 int run_dataset(const RunArguments& arguments) {
   SlamOptions options = effective_options(arguments.options);
   if (arguments.sequential) options.threads = Threads::kSequential;
   const std::unique_ptr<Dataset> dataset = open_dataset(arguments.dataset, arguments.reading);
-  Slam slam(dataset->rig(), options);
+  Slam slam(dataset->rig(), options, known_map(arguments, dataset->rig()));
   Prefetcher frames(*dataset, arguments.start, arguments.end);
   const ResultFolder folder(arguments.output, arguments.overwrite);
   folder.write("config.yaml", std::string("# spslam " SPSLAM_VERSION ", preset ") +
@@ -188,6 +202,10 @@ int run_dataset(const RunArguments& arguments) {
   spdlog::info("{} {} frames: {}", signal == 0 ? "done" : "interrupted after", record.frames.size(),
                state_counts(record));
   write_results(folder, *dataset, record, evaluation);
+  if (!arguments.save_map.empty()) slam.save(arguments.save_map);
+  if (signal == 0 && !failure && !record.frames.empty())
+    write_samples(folder, *dataset, options.tracker, record.frames.front().index, record.frames.back().index,
+                  arguments.samples);
   if (!arguments.quiet) std::fputs((dataset->description() + "\n" + report).c_str(), stdout);
   if (failure) std::rethrow_exception(failure);
   if (signal == 0) return 0;
@@ -226,6 +244,17 @@ void add_run(CLI::App& app, Command& chosen) {
       ->type_name("DIR");
   add_option_arguments(*command, arguments->options);
   add_reading_options(*command, *arguments);
+  command->add_option("--save-map", arguments->save_map, "File for the map, at the end of the run")
+      ->type_name("FILE");
+  command
+      ->add_option("--load-map", arguments->load_map,
+                   "Map to continue: tracking begins once a frame is recognized in it")
+      ->type_name("FILE");
+  command
+      ->add_option("--samples", arguments->samples,
+                   "Pictures of the run's features, near and far, for its report")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
   command->add_flag("--sequential", arguments->sequential,
                     "All stages in order in one thread: the same bits on every run (threads=sequential)");
   command->add_flag("--realtime", arguments->realtime, "Give each frame no earlier than at its time");

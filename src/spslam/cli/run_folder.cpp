@@ -20,6 +20,15 @@ constexpr const char* kResults[] = {
     "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv", "mapping.csv", "loops.csv",
     "config.yaml",        "metrics.json",         "timing.json", "report.html",   kLogFile};
 
+// Pictures only, and their folder if nothing else is in it.
+void remove_samples(const fs::path& folder) {
+  if (!fs::is_directory(folder)) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().filename().string().starts_with("frame_") && entry.path().extension() == ".png")
+      fs::remove(entry.path());
+  if (fs::is_empty(folder)) fs::remove(folder);
+}
+
 void prepare_folder(const fs::path& folder, bool overwrite) {
   if (fs::exists(folder) && !fs::is_directory(folder))
     throw OutputError(folder.string() + " is a file; give a folder with --output");
@@ -29,6 +38,7 @@ void prepare_folder(const fs::path& folder, bool overwrite) {
                       "results that are in it");
   fs::create_directories(folder);
   for (const char* name : kResults) fs::remove(folder / name);
+  remove_samples(folder / kSamplesFolder);
 }
 
 }  // namespace
@@ -66,6 +76,7 @@ ResultFolder::~ResultFolder() {
 void ResultFolder::write(const std::string& name, std::string_view text) const {
   const fs::path temporary = folder_ / (name + ".partial");
   std::error_code code;
+  fs::create_directories(temporary.parent_path(), code);
   try {
     write_text_file(temporary, text);
   } catch (const OutputError&) {

@@ -15,6 +15,9 @@ class sink;
 
 namespace spslam {
 
+// Below the results: pictures for the report.
+inline constexpr const char* kSamplesFolder = "samples";
+
 class ResultFolder {
  public:
   // Makes the folder and starts its log.txt, to which the process's logger writes as long as this lives.
@@ -26,7 +29,8 @@ class ResultFolder {
   ResultFolder& operator=(const ResultFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
-  // Under a temporary name first. Throws OutputError; nothing is left then.
+  // Under a temporary name first; makes the folder that the name lies in. Throws OutputError; nothing is left
+  // then.
   void write(const std::string& name, std::string_view text) const;
 
  private:

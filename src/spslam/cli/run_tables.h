@@ -22,6 +22,7 @@ struct RunRecord {
   std::vector<TrajectoryPose> trajectory;  // this and what follows: after Slam::finish()
   std::vector<KeyframeInfo> keyframes;
   std::vector<MappingInfo> mapping;
+  std::vector<LoopAttempt> loops;
   std::size_t landmarks = 0;
   double wall_seconds = 0;
 };
@@ -32,6 +33,9 @@ std::string frames_csv(const RunRecord& record);
 std::string keyframes_csv(const RunRecord& record);
 // mapping.csv: what local mapping did with each keyframe, those that were culled later among them.
 std::string mapping_csv(const RunRecord& record);
+// loops.csv: each place that a keyframe was compared with, how far that went, and the motion where it was
+// accepted.
+std::string loops_csv(const RunRecord& record);
 Trajectory stamped_trajectory(const RunRecord& record);
 // A row for each frame given: one without a pose of its own repeats the pose before it, or, before the first,
 // the first pose. Empty if no frame has a pose.

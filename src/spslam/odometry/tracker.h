@@ -104,8 +104,8 @@ class Tracker {
   std::vector<SeenByKeyframe> seen_by_keyframe_;  // ascending
   std::map<LandmarkId, Landmark> retired_;        // no longer followed, but their host is still in the window
   std::deque<Unsettled> unsettled_;
-  KeyframeId settled_reference_;  // the last keyframe handed over
-  SE3 settled_reference_pose_;
+  KeyframeId settled_reference_;           // the last keyframe handed over
+  std::map<KeyframeId, SE3> handed_over_;  // camera_from_world of the newest of them, as it is believed here
 };
 
 }  // namespace spslam

@@ -9,6 +9,8 @@
 namespace spslam {
 namespace {
 
+constexpr std::size_t kRemembered = 64;  // keyframes; the mapper is never farther behind
+
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -79,12 +81,13 @@ void Tracker::settle(std::size_t frames_kept, TrackerOutput& out) {
       if (frame.keyframe.valid()) {
         out.proposals.push_back(propose(frame));
         settled_reference_ = frame.keyframe;
-        settled_reference_pose_ = pose;
+        handed_over_[settled_reference_] = pose;
+        if (handed_over_.size() > kRemembered) handed_over_.erase(handed_over_.begin());
       }
       shorten_window(map_, static_cast<int>(map_.window.size()) - 1, options_.window);
     }
     out.settled.push_back({oldest.frame, oldest.timestamp, oldest.status, settled_reference_,
-                           pose * settled_reference_pose_.inverse()});
+                           pose * handed_over_[settled_reference_].inverse()});
     unsettled_.pop_front();
   }
 }
@@ -103,7 +106,7 @@ KeyframeProposal Tracker::propose(const WindowFrame& frame) {
     (landmark.host == frame.keyframe ? proposal.new_landmarks : proposal.known_landmarks).push_back(landmark);
   }
   proposal.previous = settled_reference_;
-  proposal.camera_from_previous = frame.camera_from_world * settled_reference_pose_.inverse();
+  proposal.camera_from_previous = frame.camera_from_world * handed_over_[settled_reference_].inverse();
   std::erase_if(retired_, [&](const auto& entry) { return entry.second.host <= frame.keyframe; });
   return proposal;
 }
@@ -121,14 +124,15 @@ void Tracker::adopt(const LocalMapView& view) {
 }
 
 void Tracker::take_corrections(const LocalMapView& view) {
-  // The window moves rigidly with the last keyframe handed over, and everything that hangs on it.
-  SE3 world_from_old;
+  // The window moves rigidly with the newest keyframe that the mapper knows, and everything that hangs on it.
+  SE3 old_from_world;
   for (const Keyframe& keyframe : view.keyframes)
-    if (keyframe.id == settled_reference_) {
-      world_from_old = keyframe.camera_from_world.inverse() * settled_reference_pose_;
-      settled_reference_pose_ = keyframe.camera_from_world;
-    }
-  const SE3 old_from_world = world_from_old.inverse();
+    if (const auto known = handed_over_.find(keyframe.id); known != handed_over_.end())
+      old_from_world = known->second.inverse() * keyframe.camera_from_world;  // the newest one's stays
+  for (auto& [id, pose] : handed_over_) pose = pose * old_from_world;
+  for (const Keyframe& keyframe : view.keyframes)
+    if (const auto known = handed_over_.find(keyframe.id); known != handed_over_.end())
+      known->second = keyframe.camera_from_world;
   for (auto& [id, host] : map_.hosts) host.camera_from_world = host.camera_from_world * old_from_world;
   for (const Keyframe& keyframe : view.keyframes)
     if (const auto host = map_.hosts.find(keyframe.id); host != map_.hosts.end())

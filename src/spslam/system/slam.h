@@ -3,11 +3,14 @@
 // The whole system behind one function: slam.track(timestamp, left, right).
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "spslam/camera/stereo_frame.h"
 #include "spslam/camera/stereo_rig.h"
+#include "spslam/loop/loop_closer.h"
 #include "spslam/map/map.h"
 #include "spslam/odometry/track_result.h"
 #include "spslam/system/slam_options.h"
@@ -42,10 +45,13 @@ struct MappingInfo {
   std::size_t keyframes = 0, landmarks = 0;  // in the map afterwards
 };
 
+class Stages;
+
 class Slam {
  public:
-  // Throws InputError for a rig, OptionError for options that are not usable.
-  Slam(const StereoRig& rig, const SlamOptions& options = {});
+  // Throws InputError for a rig, OptionError for options that are not usable. map: what is known already, as
+  // load_map() gives it; then the first frame is looked for in it, and nothing is tracked until it is found.
+  Slam(const StereoRig& rig, const SlamOptions& options = {}, Map map = {});
   ~Slam();
   Slam(const Slam&) = delete;
   Slam& operator=(const Slam&) = delete;
@@ -67,9 +73,14 @@ class Slam {
   std::size_t landmark_count() const;
   // One a keyframe that was handed to the mapper, in order.
   std::vector<MappingInfo> mapping() const;
+  // What was tried to recognize each of them, in order.
+  std::vector<LoopAttempt> loops() const;
+  // Writes the map to a file (map_file.h); whole only after finish(). Throws OutputError.
+  void save(const std::filesystem::path& path) const;
 
  private:
-  struct Stages;
+  StereoRig rig_;
+  std::optional<double> last_timestamp_;  // s
   std::unique_ptr<Stages> stages_;
 };
 

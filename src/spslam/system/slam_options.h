@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "spslam/loop/loop_closer.h"
 #include "spslam/mapping/local_mapper.h"
 #include "spslam/odometry/options.h"
 
@@ -23,12 +24,14 @@ struct SlamOptions {
   Threads threads = Threads::kParallel;
   TrackerOptions tracker;
   LocalMapperOptions mapper;
+  LoopOptions loop;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.threads, {"threads", "", "parallel, or sequential for the same bits on every run"});
     visit.group("tracker", self.tracker);
     visit.group("mapper", self.mapper);
+    visit.group("loop", self.loop);
   }
 };
 

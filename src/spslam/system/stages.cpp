@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/system/stages.h"
+
+#include <chrono>
+
+#include "spslam/base/log.h"
+
+namespace spslam {
+
+Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map)
+    : rig_(rig),
+      options_(options),
+      tracker_(rig, options.tracker),
+      mapper_(rig, options.tracker.orb, options.mapper, std::move(map)),
+      closer_(rig, options.loop, built_in_vocabulary()) {
+  const Map& known = mapper_.map();
+  if (!known.keyframes().empty()) {
+    tracker_.continue_map({known.keyframes().rbegin()->first.value + 1},
+                          {known.landmarks().empty() ? 0 : known.landmarks().rbegin()->first.value + 1});
+    for (const auto& [id, keyframe] : known.keyframes()) closer_.add(known, id);
+  }
+  tracker_.set_relocalizer([this](const KeyframeFeatures& features) { return relocalize(features); });
+  if (!is_parallel()) return;
+  mapping_ = std::thread([this] {
+    while (auto proposal = proposals_.pop()) insert(std::move(*proposal));
+    described_.close();
+  });
+  loop_closing_ = std::thread([this] {
+    while (const auto id = described_.pop()) close_loop(*id);
+  });
+}
+
+TrackResult Stages::track(const StereoFrame& pair) {
+  LocalMapView view;
+  {
+    const std::scoped_lock lock(view_mutex_);
+    std::swap(view, view_);
+  }
+  if (view.revision > 0) tracker_.adopt(view);
+  tracker_.set_mapper_busy(!proposals_.empty());
+  TrackerOutput output = tracker_.track(pair);
+  take(output);
+  return output.result;
+}
+
+void Stages::take(TrackerOutput& output) {
+  settled_.insert(settled_.end(), output.settled.begin(), output.settled.end());
+  for (KeyframeProposal& proposal : output.proposals) {
+    if (is_parallel())
+      proposals_.push(std::move(proposal));
+    else
+      insert(std::move(proposal));
+  }
+}
+
+void Stages::insert(KeyframeProposal proposal) {
+  const auto start = std::chrono::steady_clock::now();
+  const KeyframeId id = proposal.keyframe.id;
+  {
+    const std::scoped_lock lock(map_mutex_);
+    MappingResult done = mapper_.insert(std::move(proposal), [this] { return !proposals_.empty(); });
+    for (const KeyframeId gone : done.culled) closer_.erase(gone);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    mapping_log_.push_back({id, time.count(), done.retriangulated, done.outliers, done.culled_landmarks,
+                            static_cast<int>(done.culled.size()), done.adjustment.iterations,
+                            done.adjustment.initial_cost, done.adjustment.final_cost,
+                            mapper_.map().keyframes().size(), mapper_.map().landmarks().size()});
+    publish(std::move(done.view));
+  }
+  if (!options_.loop.enabled) return;
+  if (is_parallel())
+    described_.push(id);
+  else
+    close_loop(id);
+}
+
+void Stages::publish(LocalMapView view) {
+  const std::scoped_lock lock(view_mutex_);
+  view.corrected = view.corrected || view_.corrected;  // nobody has looked at that one
+  view_ = std::move(view);
+}
+
+// What takes long is done on copies, without the lock.
+void Stages::close_loop(KeyframeId id) {
+  LoopAttempt attempt;
+  EssentialGraph graph;
+  {
+    const std::scoped_lock lock(map_mutex_);
+    attempt = closer_.detect(mapper_.map(), id);
+    loop_log_.push_back(attempt);
+    if (!attempt.closure) return;
+    graph = copy_essential_graph(mapper_.map(), rig_, *attempt.closure, options_.loop.graph);
+  }
+  MapCorrection correction = solve_essential_graph(std::move(graph), options_.loop.graph);
+  {
+    const std::scoped_lock lock(map_mutex_);
+    fuse_across(mapper_.map(), rig_, *attempt.closure, options_.loop.fusion, correction);
+    extend(correction, mapper_.map());
+    publish(mapper_.correct([&](Map& m) { apply(correction, m); }));
+  }
+  spdlog::info("loop closed: keyframe {} sees the place of keyframe {}", attempt.closure->edge.newer.value,
+               attempt.closure->edge.older.value);
+}
+
+std::optional<SE3> Stages::relocalize(const KeyframeFeatures& features) {
+  const std::scoped_lock lock(map_mutex_);
+  const auto found = closer_.relocalize(mapper_.map(), features);
+  if (!found) return std::nullopt;
+  return found->camera_from_world;
+}
+
+void Stages::finish() {
+  if (std::exchange(is_finished_, true)) return;
+  TrackerOutput rest = tracker_.finish();
+  take(rest);
+  stop();
+}
+
+void Stages::stop() {
+  proposals_.close();
+  if (mapping_.joinable()) mapping_.join();
+  described_.close();
+  if (loop_closing_.joinable()) loop_closing_.join();
+}
+
+std::vector<MappingInfo> Stages::mapping_log() const {
+  const std::scoped_lock lock(map_mutex_);
+  return mapping_log_;
+}
+
+std::vector<LoopAttempt> Stages::loop_log() const {
+  const std::scoped_lock lock(map_mutex_);
+  return loop_log_;
+}
+
+}  // namespace spslam

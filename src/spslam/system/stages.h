@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// The stages behind Slam: the tracker in the caller's thread, local mapping and loop closing in one each, or
+// all in order in the caller's. Values go down through bounded queues; what comes back is a view.
+#pragma once
+
+#include <mutex>
+#include <thread>
+
+#include "spslam/loop/loop_closer.h"
+#include "spslam/mapping/local_mapper.h"
+#include "spslam/odometry/tracker.h"
+#include "spslam/system/bounded_queue.h"
+#include "spslam/system/slam.h"
+
+namespace spslam {
+
+class Stages {
+ public:
+  Stages(const StereoRig& rig, const SlamOptions& options, Map map);
+  ~Stages() { stop(); }
+  Stages(const Stages&) = delete;
+  Stages& operator=(const Stages&) = delete;
+
+  // Frames in order of time.
+  TrackResult track(const StereoFrame& pair);
+  // Ends the input and works off what waits. Nothing may be tracked afterwards.
+  void finish();
+
+  // Reads the map, while nobody writes to it.
+  template <class F>
+  auto read(F f) const {
+    const std::scoped_lock lock(map_mutex_);
+    return f(mapper_.map());
+  }
+  const std::vector<FramePose>& settled() const { return settled_; }  // from the caller's thread
+  std::vector<MappingInfo> mapping_log() const;
+  std::vector<LoopAttempt> loop_log() const;
+
+ private:
+  void take(TrackerOutput& output);
+  void insert(KeyframeProposal proposal);
+  void close_loop(KeyframeId id);
+  void correct(const MapCorrection& correction);
+  void publish(LocalMapView view);
+  std::optional<SE3> relocalize(const KeyframeFeatures& features);
+  void stop();
+
+  bool is_parallel() const { return options_.threads == Threads::kParallel; }
+
+  StereoRig rig_;
+  SlamOptions options_;
+  Tracker tracker_;
+  bool is_finished_ = false;
+  std::vector<FramePose> settled_;
+  BoundedQueue<KeyframeProposal> proposals_{8};
+  BoundedQueue<KeyframeId> described_{64};
+  mutable std::mutex map_mutex_;  // guards what follows
+  LocalMapper mapper_;
+  LoopCloser closer_;
+  std::vector<MappingInfo> mapping_log_;
+  std::vector<LoopAttempt> loop_log_;
+  std::mutex view_mutex_;  // guards the view, so that the tracker never waits for the mapper
+  LocalMapView view_;
+  std::thread mapping_, loop_closing_;  // last: they use all of the above
+};
+
+}  // namespace spslam
