@@ -22,6 +22,7 @@ void add_report(CLI::App& app, Command& chosen);
 void add_run(CLI::App& app, Command& chosen);
 void add_segment(CLI::App& app, Command& chosen);
 void add_simulate(CLI::App& app, Command& chosen);
+void add_vocabulary(CLI::App& app, Command& chosen);
 
 // The exit code of a wrong command line.
 inline constexpr int kUsageError = 2;

@@ -42,6 +42,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_export_map(app, chosen);
   add_segment(app, chosen);
   add_simulate(app, chosen);
+  add_vocabulary(app, chosen);
 }
 
 int run(int argc, char** argv) {

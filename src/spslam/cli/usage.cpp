@@ -31,18 +31,23 @@ std::string unknown(const std::string& kind, const std::string& word, const std:
   return "unknown " + kind + " '" + word + "'" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
 }
 
+// "spslam vocabulary train"
+std::string full_name(const CLI::App& app) {
+  const std::string above = app.get_parent() ? full_name(*app.get_parent()) + " " : "";
+  return above + app.get_name();
+}
+
 }  // namespace
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& chosen = deepest_chosen(app);
-  const std::string help =
-      " See `" + (&chosen == &app ? "spslam" : "spslam " + chosen.get_name()) + " --help`.";
+  const std::string help = " See `" + full_name(chosen) + " --help`.";
   const std::vector<std::string> extra = app.remaining(true);
   for (const std::string& word : extra)
     if (word.size() > 1 && word[0] == '-')
       return unknown("option", word.substr(0, word.find('=')), option_flags(chosen)) + help;
-  if (!extra.empty() && &chosen == &app)
-    return unknown("subcommand", extra.front(), subcommand_names(app)) + help;
+  if (!extra.empty() && !subcommand_names(chosen).empty())
+    return unknown("subcommand", extra.front(), subcommand_names(chosen)) + help;
   if (!extra.empty()) return "unexpected argument '" + extra.front() + "'." + help;
   return std::string(error.what()) + "." + help;
 }
