@@ -149,6 +149,25 @@ std::string mapping_csv(const RunRecord& record) {
   return text;
 }
 
+std::string loops_csv(const RunRecord& record) {
+  std::string text =
+      "keyframe,older,score,stage,verification,matches,consensus,inliers,translation_sigma,rotation_sigma,"
+      "scale,"
+      "gap,turn_gap,way,closed\n";
+  for (const LoopAttempt& attempt : record.loops)
+    for (const LoopCandidate& c : attempt.candidates) {
+      const Verification& v = c.verification;
+      const bool closed = attempt.closure && attempt.closure->edge.older == c.keyframe;
+      text += fmt::format(
+          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", attempt.keyframe.value, c.keyframe.value,
+          csv_number(c.score, 4), option_names(c.stage)[static_cast<std::size_t>(c.stage)],
+          option_names(v.stage)[static_cast<std::size_t>(v.stage)], v.matches, v.consensus, v.inliers,
+          csv_number(v.translation_sigma, 4), csv_number(v.rotation_sigma, 4), csv_number(v.scale, 4),
+          csv_number(c.gap, 3), csv_number(c.turn_gap, 3), csv_number(c.way, 2), closed ? 1 : 0);
+    }
+  return text;
+}
+
 Trajectory stamped_trajectory(const RunRecord& record) {
   Trajectory trajectory;
   for (const TrajectoryPose& pose : record.trajectory)

@@ -36,10 +36,11 @@ class BoundedQueue {
     changed_.notify_all();
     return value;
   }
-  bool empty() const {
+  std::size_t size() const {
     const std::scoped_lock lock(mutex_);
-    return values_.empty();
+    return values_.size();
   }
+  bool empty() const { return size() == 0; }
   void close() {
     const std::scoped_lock lock(mutex_);
     closed_ = true;

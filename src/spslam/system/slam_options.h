@@ -5,7 +5,11 @@
 
 #include <filesystem>
 
+#include "spslam/loop/essential_graph.h"
+#include "spslam/loop/full_adjustment.h"
+#include "spslam/loop/fusion.h"
 #include "spslam/loop/loop_closer.h"
+#include "spslam/loop/relocalizer.h"
 #include "spslam/mapping/local_mapper.h"
 #include "spslam/odometry/options.h"
 
@@ -19,6 +23,27 @@ inline std::span<const char* const> option_names(Threads) {
   static constexpr const char* names[] = {"parallel", "sequential"};
   return names;
 }
+
+struct LoopOptions {
+  bool enabled = true;
+  DetectionOptions detection;
+  VerificationOptions verification;
+  EssentialGraphOptions graph;
+  FusionOptions fusion;
+  FullAdjustmentOptions full_adjustment;
+  RelocalizationOptions relocalization;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit(self.enabled, {"enabled", "", "close loops"});
+    visit.group("detection", self.detection);
+    visit.group("verification", self.verification);
+    visit.group("graph", self.graph);
+    visit.group("fusion", self.fusion);
+    visit.group("full_adjustment", self.full_adjustment);
+    visit.group("relocalization", self.relocalization);
+  }
+};
 
 struct SlamOptions {
   Threads threads = Threads::kParallel;

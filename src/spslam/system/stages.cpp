@@ -8,13 +8,20 @@
 #include "spslam/base/log.h"
 
 namespace spslam {
+namespace {
+
+// Keyframes that may wait to be recognized while the whole map is adjusted; more, and there may be another
+// loop.
+constexpr std::size_t kMayWait = 10;
+
+}  // namespace
 
 Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map)
     : rig_(rig),
       options_(options),
       tracker_(rig, options.tracker),
       mapper_(rig, options.tracker.orb, options.mapper, std::move(map)),
-      closer_(rig, options.loop, built_in_vocabulary()) {
+      closer_(rig, options.loop.detection, options.loop.verification, built_in_vocabulary()) {
   const Map& known = mapper_.map();
   if (!known.keyframes().empty()) {
     tracker_.continue_map({known.keyframes().rbegin()->first.value + 1},
@@ -94,21 +101,35 @@ void Stages::close_loop(KeyframeId id) {
     graph = copy_essential_graph(mapper_.map(), rig_, *attempt.closure, options_.loop.graph);
   }
   MapCorrection correction = solve_essential_graph(std::move(graph), options_.loop.graph);
+  if (correction.empty()) return;
+  AdjustmentProblem whole;
   {
     const std::scoped_lock lock(map_mutex_);
     fuse_across(mapper_.map(), rig_, *attempt.closure, options_.loop.fusion, correction);
-    extend(correction, mapper_.map());
-    publish(mapper_.correct([&](Map& m) { apply(correction, m); }));
+    write(correction);
+    whole = copy_full_problem(mapper_.map(), rig_, options_.loop.full_adjustment);
   }
   spdlog::info("loop closed: keyframe {} sees the place of keyframe {}", attempt.closure->edge.newer.value,
                attempt.closure->edge.older.value);
+  const MapCorrection adjusted = solve_full_problem(std::move(whole), options_.loop.full_adjustment,
+                                                    [this] { return described_.size() > kMayWait; });
+  if (adjusted.empty()) return;
+  const std::scoped_lock lock(map_mutex_);
+  write(adjusted);
+}
+
+// The map's lock is held.
+void Stages::write(MapCorrection correction) {
+  extend(correction, mapper_.map());
+  publish(mapper_.correct([&](Map& map) { apply(correction, map); }));
 }
 
 std::optional<SE3> Stages::relocalize(const KeyframeFeatures& features) {
   const std::scoped_lock lock(map_mutex_);
-  const auto found = closer_.relocalize(mapper_.map(), features);
-  if (!found) return std::nullopt;
-  return found->camera_from_world;
+  const RelocalizationAttempt attempt =
+      spslam::relocalize(features, mapper_.map(), rig_, closer_.index(), options_.loop.relocalization);
+  if (!attempt.found) return std::nullopt;
+  return attempt.found->camera_from_world;
 }
 
 void Stages::finish() {

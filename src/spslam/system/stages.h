@@ -41,7 +41,7 @@ class Stages {
   void take(TrackerOutput& output);
   void insert(KeyframeProposal proposal);
   void close_loop(KeyframeId id);
-  void correct(const MapCorrection& correction);
+  void write(MapCorrection correction);
   void publish(LocalMapView view);
   std::optional<SE3> relocalize(const KeyframeFeatures& features);
   void stop();
