@@ -3,31 +3,53 @@
 
 #include "spslam/loop/loop_closer.h"
 
+#include <algorithm>
+
 namespace spslam {
 namespace {
 
-LoopClosure make_closure(const Place& older, KeyframeId newer, const Verification& found) {
-  LoopClosure closure;
-  closure.edge = {older.id, newer, found.newer_from_older, static_cast<double>(found.inliers)};
-  closure.covariance = found.covariance;
-  for (const Correspondence& pair : found.pairs) {
-    const PlacePoint& point = older.points[pair.point];
-    const Keypoint& keypoint = older.keypoint(point);
-    closure.pairs.push_back({older.sources[point.source].id, {keypoint.x, keypoint.y}, pair.feature});
-  }
-  return closure;
+constexpr int kCloseNeighbour = 15;  // landmarks shared by keyframes that must look alike
+constexpr int kConfirmersTried = 3;  // for each confirmation wanted
+constexpr double kAgreementSigmas = 4;
+constexpr double kAgreementFloor = 0.1;  // m; poses of neighbours are not exact either
+constexpr double kAgreementTurn = 1.5;   // deg
+
+double degrees(const SE3& motion) {
+  return so3_log(motion.rotation).norm() * 180 / M_PI;
 }
 
-LoopCandidate summary_of(const CandidateGroup& group, const Verification& found) {
-  return {group.best,    group.best_score,        found.stage,          found.matches, found.consensus,
-          found.inliers, found.translation_sigma, found.rotation_sigma, found.scale,   false};
+// Length of the way from one keyframe to another, by the keyframes between. Not finite if it leads over a
+// gap that nothing connects.
+double way_between(const Map& map, KeyframeId from, KeyframeId to) {
+  double length = 0;
+  const Keyframe* before = map.find(from);
+  for (auto it = map.keyframes().upper_bound(from); it != map.keyframes().end() && it->first <= to; ++it) {
+    length += (it->second.camera_from_world * before->camera_from_world.inverse()).translation.norm();
+    before = &it->second;
+  }
+  return length;
+}
+
+LoopClosure closure_of(KeyframeId newer, const Place& place, const Verification& verified) {
+  LoopClosure out;
+  out.edge = {place.id, newer, verified.newer_from_older, static_cast<double>(verified.inliers)};
+  out.covariance = verified.covariance;
+  for (const Correspondence& c : verified.pairs) {
+    const PlacePoint& point = place.points[c.point];
+    const Keypoint& at = place.keypoint(point);
+    if (at.octave == 0) out.pairs.push_back({place.sources[point.source].id, {at.x, at.y}, c.feature});
+  }
+  return out;
 }
 
 }  // namespace
 
-LoopCloser::LoopCloser(const StereoRig& rig, const LoopOptions& options, Vocabulary vocabulary)
-    : rig_(rig), options_(options), index_(std::move(vocabulary)) {
-  check_options(options);
+LoopCloser::LoopCloser(const StereoRig& rig, const DetectionOptions& detection,
+                       const VerificationOptions& verification, const Vocabulary& vocabulary)
+    : rig_(rig), options_(detection), verification_(verification), index_(vocabulary) {
+  rig.check();
+  check_options(detection);
+  check_options(verification);
 }
 
 void LoopCloser::add(const Map& map, KeyframeId id) {
@@ -35,89 +57,130 @@ void LoopCloser::add(const Map& map, KeyframeId id) {
   if (keyframe && keyframe->features) index_.add(id, *keyframe->features);
 }
 
-// Those far enough back, that share no landmark with it, and that look at least somewhat as much like it as
-// the keyframe before it does.
-std::vector<CandidateGroup> LoopCloser::groups_for(const Map& map, KeyframeId newest) const {
-  std::set<KeyframeId> exclude = {newest};
-  for (const Covisible& near : map.covisible(newest)) exclude.insert(near.id);
-  int newer = options_.min_gap;
-  for (auto it = map.keyframes().rbegin(); it != map.keyframes().rend() && newer-- > 0; ++it)
-    exclude.insert(it->first);
-  const WordVector* words = index_.find(newest);
-  if (!words) return {};
-  const double least = options_.score_share * index_.score(newest, previous_);
-  std::vector<Candidate> candidates = index_.query(*words, exclude);
-  std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.score < least; });
-  std::vector<CandidateGroup> groups = group_candidates(candidates, map, options_.grouping);
-  if (static_cast<int>(groups.size()) > options_.candidates)
-    groups.resize(static_cast<std::size_t>(options_.candidates));
-  return groups;
-}
-
 LoopAttempt LoopCloser::detect(const Map& map, KeyframeId newest) {
   LoopAttempt attempt;
   attempt.keyframe = newest;
   const Keyframe* keyframe = map.find(newest);
-  if (!keyframe || !keyframe->features) return attempt;
-  add(map, newest);
-  const std::vector<CandidateGroup> groups = groups_for(map, newest);
-  previous_ = newest;
-  if (closed_.valid() && newest.value <= closed_.value + options_.pause) return attempt;
-  bool was_verified = false;
-  for (const CandidateGroup& group : groups) {
-    const Place older = place_of(map, rig_, group.best, options_.verification.neighbours);
-    const Verification found =
-        verify(older, *keyframe->features, rig_, index_.vocabulary(), options_.verification);
-    attempt.candidates.push_back(summary_of(group, found));
-    if (!found.accepted()) continue;
-    was_verified = true;
-    const LoopClosure closure = make_closure(older, newest, found);
-    if (!is_consistent(map, closure.edge, newest)) break;
-    attempt.candidates.back().consistent = true;
-    attempt.closure = closure;
-    pending_.reset();
-    closed_ = newest;
+  if (!keyframe || !keyframe->features) {
+    trails_.clear();
     return attempt;
   }
-  if (!was_verified) pending_.reset();
+  std::vector<LoopCandidate> candidates = find_candidates(map, *keyframe, attempt);
+  add(map, newest);
+  const bool pausing = last_closed_.valid() && newest.value - last_closed_.value <= options_.pause;
+  for (LoopCandidate& candidate : candidates) {
+    if (candidate.consistency >= options_.consistency && !pausing)
+      examine(map, *keyframe, candidate, attempt);
+    attempt.candidates.push_back(std::move(candidate));
+    if (attempt.closure) break;
+  }
+  if (attempt.closure) {
+    last_closed_ = newest;
+    trails_.clear();
+  }
   return attempt;
 }
 
-// Whether enough keyframes in a row imply the same change of the world.
-bool LoopCloser::is_consistent(const Map& map, const LoopEdge& edge, KeyframeId newest) {
-  const SE3 seen = edge.newer_from_older * map.find(edge.older)->camera_from_world;
-  const SE3 new_from_old = seen.inverse() * map.find(newest)->camera_from_world;
-  Implied implied{newest, new_from_old, 1};
-  if (pending_) {
-    // The difference, as it acts on the newest camera.
-    const SE3 camera_from_world = map.find(newest)->camera_from_world;
-    const SE3 difference =
-        camera_from_world * pending_->new_from_old.inverse() * new_from_old * camera_from_world.inverse();
-    const bool agrees = difference.translation.norm() <= options_.consistent_translation &&
-                        so3_log(difference.rotation).norm() * 180 / M_PI <= options_.consistent_rotation;
-    if (agrees) implied.in_a_row = pending_->in_a_row + 1;
-  }
-  pending_ = implied;
-  return implied.in_a_row >= options_.consistency;
+// What is connected with the keyframe already, or too young.
+std::set<KeyframeId> LoopCloser::excluded(const Map& map, KeyframeId newest) const {
+  std::set<KeyframeId> out = {newest};
+  for (const Covisible& other : map.covisible(newest)) out.insert(other.id);
+  int young = 0;
+  for (auto it = map.keyframes().rbegin(); it != map.keyframes().rend() && young < options_.min_gap;
+       ++it, ++young)
+    out.insert(it->first);
+  return out;
 }
 
-std::optional<Relocalized> LoopCloser::relocalize(const Map& map, const KeyframeFeatures& seen) const {
-  std::vector<CandidateGroup> groups = group_candidates(index_.query(seen), map, options_.grouping);
-  if (static_cast<int>(groups.size()) > options_.relocalization_candidates)
-    groups.resize(static_cast<std::size_t>(options_.relocalization_candidates));
-  std::optional<Relocalized> best;
+// The likeness that pictures of one place have here and now (Mur-Artal et al. 2015, section VII-A).
+double LoopCloser::least_score(const Map& map, const Keyframe& keyframe, const WordVector& words) const {
+  double least = 1;
+  for (const Covisible& near : map.covisible(keyframe.id, kCloseNeighbour))
+    if (const WordVector* other = index_.find(near.id)) least = std::min(least, similarity(words, *other));
+  return least < 1 ? options_.min_score_share * least : 0;
+}
+
+std::vector<LoopCandidate> LoopCloser::find_candidates(const Map& map, const Keyframe& keyframe,
+                                                       LoopAttempt& attempt) {
+  const WordVector words = index_.vocabulary().describe(keyframe.features->descriptors);
+  attempt.least_score = least_score(map, keyframe, words);
+  std::vector<Candidate> alike = index_.query(words, excluded(map, keyframe.id));
+  std::erase_if(alike, [&](const Candidate& c) { return c.score < attempt.least_score; });
+  std::vector<CandidateGroup> groups = group_candidates(alike, map);
+  groups.resize(std::min(groups.size(), static_cast<std::size_t>(options_.candidates)));
+  std::vector<LoopCandidate> out;
+  std::vector<Trail> trails;
   for (const CandidateGroup& group : groups) {
-    const Verification found = verify_place(map, group.best, seen);
-    if (!found.accepted() || (best && found.inliers <= best->inliers)) continue;
-    best = Relocalized{found.newer_from_older * map.find(group.best)->camera_from_world, found.covariance,
-                       group.best, found.inliers};
+    Trail trail;
+    trail.members.insert(group.members.begin(), group.members.end());
+    for (const Covisible& near : map.covisible(group.best)) trail.members.insert(near.id);
+    for (const Trail& before : trails_) {
+      const bool same = std::any_of(before.members.begin(), before.members.end(),
+                                    [&](KeyframeId id) { return trail.members.contains(id); });
+      if (same) trail.length = std::max(trail.length, before.length + 1);
+    }
+    LoopCandidate candidate;
+    candidate.keyframe = group.best, candidate.score = group.score, candidate.consistency = trail.length;
+    out.push_back(std::move(candidate));
+    trails.push_back(std::move(trail));
   }
-  return best;
+  trails_ = std::move(trails);
+  return out;
 }
 
-Verification LoopCloser::verify_place(const Map& map, KeyframeId older, const KeyframeFeatures& newer) const {
-  return verify(place_of(map, rig_, older, options_.verification.neighbours), newer, rig_,
-                index_.vocabulary(), options_.verification);
+void LoopCloser::examine(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate,
+                         LoopAttempt& attempt) const {
+  const Place place = place_of(map, rig_, candidate.keyframe, verification_.neighbours);
+  Verification verified = verify(place, *keyframe.features, rig_, index_.vocabulary(), verification_);
+  LoopClosure closure = closure_of(keyframe.id, place, verified);
+  verified.pairs.clear();
+  candidate.verification = std::move(verified);
+  candidate.stage = LoopStage::kNotVerified;
+  if (!candidate.verification.accepted()) return;
+  candidate.stage = LoopStage::kImplausible;
+  if (!is_plausible(map, keyframe, candidate)) return;
+  candidate.stage = LoopStage::kNotConfirmed;
+  candidate.confirmed = confirm(map, keyframe, place, candidate);
+  if (candidate.confirmed < options_.confirmations) return;
+  candidate.stage = LoopStage::kAccepted;
+  attempt.closure = std::move(closure);
+}
+
+// A wall that repeats itself looks like a loop that is one period off; but odometry does not drift that much.
+bool LoopCloser::is_plausible(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate) const {
+  const Keyframe& older = *map.find(candidate.keyframe);
+  const SE3 by_odometry = keyframe.camera_from_world * older.camera_from_world.inverse();
+  const SE3 gap = candidate.verification.newer_from_older * by_odometry.inverse();
+  // Of the camera's centres, so that the turn does not count as a way.
+  candidate.gap =
+      (candidate.verification.newer_from_older.inverse().translation - by_odometry.inverse().translation)
+          .norm();
+  candidate.turn_gap = degrees(gap);
+  candidate.way = way_between(map, candidate.keyframe, keyframe.id);
+  return candidate.gap <= options_.max_drift_floor + options_.max_drift * candidate.way &&
+         candidate.turn_gap <= options_.max_turn_drift_floor + options_.max_turn_drift * candidate.way;
+}
+
+// How many of the keyframes before find the same motion by themselves, theirs among each other being known.
+int LoopCloser::confirm(const Map& map, const Keyframe& keyframe, const Place& place,
+                        const LoopCandidate& candidate) const {
+  int confirmed = 0, tried = 0;
+  for (const Covisible& near : map.covisible(keyframe.id)) {
+    const Keyframe& other = *map.find(near.id);
+    if (confirmed >= options_.confirmations || tried >= kConfirmersTried * options_.confirmations) break;
+    if (!other.features) continue;
+    ++tried;
+    const Verification verified = verify(place, *other.features, rig_, index_.vocabulary(), verification_);
+    if (!verified.accepted()) continue;
+    const SE3 expected = other.camera_from_world * keyframe.camera_from_world.inverse() *
+                         candidate.verification.newer_from_older;
+    const SE3 off = verified.newer_from_older * expected.inverse();
+    const double sigma = std::hypot(verified.translation_sigma, candidate.verification.translation_sigma);
+    const double distance =
+        (verified.newer_from_older.inverse().translation - expected.inverse().translation).norm();
+    if (distance <= kAgreementFloor + kAgreementSigmas * sigma && degrees(off) <= kAgreementTurn) ++confirmed;
+  }
+  return confirmed;
 }
 
 }  // namespace spslam

@@ -1,108 +1,119 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Loop detection and relocalization (SPEC, part 8): candidates from the keyframe index, geometric
-// verification, and, for a loop, two keyframes in a row that say the same.
+// Loop closing, the third of the three threads (SPEC part 8): recognizes places by their words, makes sure by
+// geometry, and says where the newest keyframe was seen from before. It reads the map and writes nothing; the
+// correction is made on copies (essential_graph.h, fusion.h, full_adjustment.h) and applied by the map's
+// writer (correction.h).
 #pragma once
 
-#include "spslam/loop/essential_graph.h"
-#include "spslam/loop/fusion.h"
+#include <set>
+
+#include "spslam/loop/correction.h"
 #include "spslam/loop/keyframe_index.h"
 #include "spslam/loop/verification.h"
 
 namespace spslam {
 
-struct LoopOptions {
-  bool enabled = true;
+struct DetectionOptions {
   int min_gap = 20;
-  int pause = 5;
+  double min_score_share = 0.7;
   int candidates = 3;
-  int relocalization_candidates = 8;
-  double score_share = 0.3;
-  int consistency = 2;
-  double consistent_translation = 0.3;
-  double consistent_rotation = 1;
-  GroupingOptions grouping;
-  VerificationOptions verification;
-  EssentialGraphOptions graph;
-  FusionOptions fusion;
+  int consistency = 1;
+  int confirmations = 1;
+  double max_drift = 0.3;
+  double max_drift_floor = 1;
+  double max_turn_drift = 0.2;
+  double max_turn_drift_floor = 5;
+  int pause = 5;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit(self.enabled, {"enabled", "", "close loops"});
-    visit(self.min_gap, {"min_gap", "", "newest keyframes that are no candidates for a loop", 1, 100000});
-    visit(self.pause, {"pause", "", "keyframes after a closed loop in which none is sought", 0, 100000});
-    visit(self.candidates, {"candidates", "", "places verified for a keyframe at most", 1, 100});
-    visit(self.relocalization_candidates,
-          {"relocalization_candidates", "", "places verified for a lost frame at most", 1, 1000});
-    visit(self.score_share,
-          {"score_share", "", "score of a candidate at least, over that of the keyframe before the newest", 0,
-           1});
+    visit(self.min_gap, {"min_gap", "", "keyframes between the two ends of a loop, at least", 1, 1e6});
+    visit(self.min_score_share,
+          {"min_score_share", "",
+           "likeness of a candidate over that of the neighbour least like the keyframe, at least", 0, 10});
+    visit(self.candidates, {"candidates", "", "groups of candidates looked at, best first", 1, 100});
     visit(self.consistency,
-          {"consistency", "", "keyframes in a row that must be verified and agree before a loop is closed", 1,
-           100});
-    visit(self.consistent_translation,
-          {"consistent_translation", "m", "by which the corrections that they imply may differ", 0.001, 100});
-    visit(self.consistent_rotation, {"consistent_rotation", "deg", "the same, of rotation", 0.001, 180});
-    visit.group("grouping", self.grouping);
-    visit.group("verification", self.verification);
-    visit.group("graph", self.graph);
-    visit.group("fusion", self.fusion);
+          {"consistency", "", "keyframes before in a row with a candidate of the same group", 0, 20});
+    visit(self.confirmations,
+          {"confirmations", "", "keyframes before that must give the same motion by themselves", 0, 10});
+    visit(self.max_drift,
+          {"max_drift", "m/m", "gap of a loop over the length of its way, at most", 0.001, 100});
+    visit(self.max_drift_floor, {"max_drift_floor", "m", "and this more", 0, 1000});
+    visit(self.max_turn_drift,
+          {"max_turn_drift", "deg/m", "turn of the gap over the length of its way, at most", 0, 360});
+    visit(self.max_turn_drift_floor, {"max_turn_drift_floor", "deg", "and this more", 0, 180});
+    visit(self.pause, {"pause", "", "keyframes after a loop without another one", 0, 1000});
   }
 };
 
-// What became of one candidate.
+// Where a candidate was dropped, in order of the tests.
+enum class LoopStage {
+  kInconsistent,  // the keyframes before did not look like it
+  kNotVerified,   // by geometry; the verification says why
+  kImplausible,   // odometry cannot have drifted so far
+  kNotConfirmed,  // a keyframe before says otherwise, or nothing
+  kAccepted
+};
+
+inline std::span<const char* const> option_names(LoopStage) {
+  static constexpr const char* names[] = {"inconsistent", "not-verified", "implausible", "not-confirmed",
+                                          "accepted"};
+  return names;
+}
+
 struct LoopCandidate {
-  KeyframeId older;
-  double score = 0;  // of the words of the two
-  VerificationStage stage = VerificationStage::kNotDescribed;
-  int matches = 0, consensus = 0, inliers = 0;
-  double translation_sigma = 0, rotation_sigma = 0;  // m, deg
-  double scale = 1;                                  // of the newer side's depths to the older's
-  bool consistent = false;                           // with the keyframe before
+  KeyframeId keyframe;
+  double score = 0;     // of the group
+  int consistency = 0;  // keyframes before with a candidate of the same group, in a row
+  LoopStage stage = LoopStage::kInconsistent;
+  Verification verification;              // without pairs
+  double gap = 0, turn_gap = 0, way = 0;  // m, deg: what closing would move by; m: the length of the way
+  int confirmed = 0;                      // by keyframes before
 };
 
 struct LoopAttempt {
-  KeyframeId keyframe;
-  std::vector<LoopCandidate> candidates;
-  std::optional<LoopClosure> closure;  // if the loop may be closed
+  KeyframeId keyframe;  // the newest
+  double least_score = 0;
+  std::vector<LoopCandidate> candidates;  // in the order they were tried; ends with the accepted one
+  std::optional<LoopClosure> closure;
 };
 
-struct Relocalized {
-  SE3 camera_from_world;
-  Matrix6d covariance = Matrix6d::Identity();  // of a left perturbation of it, (m, rad)
-  KeyframeId reference;
-  int inliers = 0;
-};
-
-// Not for concurrent calls; the map must not change during one.
 class LoopCloser {
  public:
-  LoopCloser(const StereoRig& rig, const LoopOptions& options, Vocabulary vocabulary);
+  // Throws OptionError.
+  LoopCloser(const StereoRig& rig, const DetectionOptions& detection, const VerificationOptions& verification,
+             const Vocabulary& vocabulary);
 
-  // Makes a keyframe of the map a candidate for later ones. Nothing if it has no features.
+  // Looks for a loop that ends in this keyframe and adds it to the index; keyframes in ascending order, each
+  // once. The same for the same calls.
+  LoopAttempt detect(const Map& map, KeyframeId newest);
+  // Only adds it, as for the keyframes of a map that was loaded.
   void add(const Map& map, KeyframeId id);
   void erase(KeyframeId id) { index_.erase(id); }
-  // Whether a keyframe that has just been mapped sees a place that was seen before; then adds it.
-  LoopAttempt detect(const Map& map, KeyframeId newest);
-  // Where a camera is that sees these features; nothing unless it is known for sure.
-  std::optional<Relocalized> relocalize(const Map& map, const KeyframeFeatures& seen) const;
+  const KeyframeIndex& index() const { return index_; }
 
  private:
-  // The change of the world that a closure implies for its newer keyframe.
-  struct Implied {
-    KeyframeId keyframe;
-    SE3 new_from_old;
-    int in_a_row = 1;
+  struct Trail {  // a group of candidates and for how many keyframes in a row it was there
+    std::set<KeyframeId> members;
+    int length = 0;
   };
-  std::vector<CandidateGroup> groups_for(const Map& map, KeyframeId newest) const;
-  Verification verify_place(const Map& map, KeyframeId older, const KeyframeFeatures& newer) const;
-  bool is_consistent(const Map& map, const LoopEdge& edge, KeyframeId newest);
+
+  std::set<KeyframeId> excluded(const Map& map, KeyframeId newest) const;
+  double least_score(const Map& map, const Keyframe& keyframe, const WordVector& words) const;
+  std::vector<LoopCandidate> find_candidates(const Map& map, const Keyframe& keyframe, LoopAttempt& attempt);
+  void examine(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate,
+               LoopAttempt& attempt) const;
+  bool is_plausible(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate) const;
+  int confirm(const Map& map, const Keyframe& keyframe, const Place& place,
+              const LoopCandidate& candidate) const;
 
   StereoRig rig_;
-  LoopOptions options_;
+  DetectionOptions options_;
+  VerificationOptions verification_;
   KeyframeIndex index_;
-  std::optional<Implied> pending_;
-  KeyframeId previous_, closed_;
+  std::vector<Trail> trails_;
+  KeyframeId last_closed_;
 };
 
 }  // namespace spslam

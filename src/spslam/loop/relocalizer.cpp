@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/loop/relocalizer.h"
+
+namespace spslam {
+namespace {
+
+constexpr double kAgreementSigmas = 5;
+constexpr double kAgreementFloor = 0.3;       // m; the map may have drifted between its keyframes
+constexpr double kAgreementTurn = M_PI / 60;  // rad
+
+bool agree(const Relocalized& a, const Relocalized& b) {
+  const SE3 off = a.camera_from_world * b.camera_from_world.inverse();
+  const double variance =
+      a.covariance.topLeftCorner<3, 3>().trace() + b.covariance.topLeftCorner<3, 3>().trace();
+  const double distance =
+      (a.camera_from_world.inverse().translation - b.camera_from_world.inverse().translation).norm();
+  return distance <= kAgreementFloor + kAgreementSigmas * std::sqrt(variance) &&
+         so3_log(off.rotation).norm() <= kAgreementTurn;
+}
+
+}  // namespace
+
+RelocalizationAttempt relocalize(const KeyframeFeatures& query, const Map& map, const StereoRig& rig,
+                                 const KeyframeIndex& index, const RelocalizationOptions& options,
+                                 const std::set<KeyframeId>& exclude) {
+  RelocalizationAttempt out;
+  const std::vector<CandidateGroup> groups = group_candidates(index.query(query, exclude), map);
+  bool contradiction = false;
+  for (const CandidateGroup& group : groups) {
+    if (static_cast<int>(out.tried.size()) >= options.candidates) break;
+    const Place place = place_of(map, rig, group.best, options.verification.neighbours);
+    Verification verified = verify(place, query, rig, index.vocabulary(), options.verification);
+    verified.pairs.clear();
+    if (verified.accepted()) {
+      const SE3 pose = (verified.newer_from_older * map.find(group.best)->camera_from_world).normalized();
+      const Relocalized here{pose, verified.covariance, group.best, verified.inliers};
+      if (out.found && !agree(*out.found, here)) contradiction = true;
+      if (!out.found || here.inliers > out.found->inliers) out.found = here;
+    }
+    out.tried.push_back({group.best, group.score, std::move(verified)});
+  }
+  if (contradiction) out.found.reset();
+  return out;
+}
+
+}  // namespace spslam
