@@ -18,7 +18,8 @@ using testing::HasSubstr;
 
 // "parent is_leaf", the 32 bytes: one and zeros, and the weight.
 std::string node(int parent, int leaf, int first_byte, const std::string& weight) {
-  std::string line = std::to_string(parent) + " " + std::to_string(leaf) + " " + std::to_string(first_byte);
+  std::string line = std::to_string(parent);
+  line.append(" ").append(std::to_string(leaf)).append(" ").append(std::to_string(first_byte));
   for (int i = 1; i < 32; ++i) line += " 0";
   return line + " " + weight + "\n";
 }
@@ -40,7 +41,7 @@ TEST(Dbow2Text, ReadsATreeInAnyOrderOfLines) {
 
 TEST(Dbow2Text, BytesStandInTheOrderOfTheBits) {
   std::string line = "0 1";
-  for (int i = 0; i < 32; ++i) line += " " + std::to_string(i);
+  for (int i = 0; i < 32; ++i) line.append(" ").append(std::to_string(i));
   const Vocabulary vocabulary =
       Vocabulary::parse_dbow2_text("2 1 0 0\n" + line + " 1\n" + node(0, 1, 0, "1"), "voc.txt");
   EXPECT_EQ(vocabulary.descriptors()[1],
