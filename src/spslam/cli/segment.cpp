@@ -14,6 +14,7 @@
 
 #include "spslam/base/error.h"
 #include "spslam/cli/commands.h"
+#include "spslam/cli/overlay.h"
 #include "spslam/features/orb_extractor.h"
 #include "spslam/io/image.h"
 #include "spslam/segmentation/distance_segmenter.h"
@@ -30,30 +31,6 @@ struct SegmentArguments {
   bool elements = false;
   int features = 1500;
 };
-
-const cv::Scalar kGreen(0, 220, 0), kRed(0, 0, 255), kOrange(0, 150, 255);  // BGR
-
-cv::Scalar colour(Region region) {
-  if (region == Region::kFar) return kRed;
-  return region == Region::kMirror ? kOrange : kGreen;
-}
-
-cv::Mat draw_overlay(const cv::Mat& grey, const RegionMap& regions, std::span<const Keypoint> keypoints) {
-  cv::Mat picture;
-  cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
-  const cv::Mat labels = regions.labels();
-  for (const Region region : {Region::kFar, Region::kMirror}) {
-    cv::Mat tinted;
-    cv::addWeighted(picture, 0.8, cv::Mat(picture.size(), CV_8UC3, colour(region)), 0.2, 0, tinted);
-    tinted.copyTo(picture, labels == static_cast<int>(region));
-  }
-  const int radius = std::max(1, picture.cols / 320);
-  for (const Keypoint& keypoint : keypoints) {
-    const cv::Point at(cvRound(keypoint.x), cvRound(keypoint.y));
-    cv::circle(picture, at, radius, colour(regions.at(keypoint.x, keypoint.y)), cv::FILLED, cv::LINE_AA);
-  }
-  return picture;
-}
 
 // Figure 9 from top to bottom: the image, what is bright, and the regions grown by each element.
 cv::Mat draw_elements(const cv::Mat& grey, const SegmentationResult& result, SegmentationOptions options) {
