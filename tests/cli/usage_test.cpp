@@ -33,6 +33,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         UsageCase{"Subcommand", {"evalute"}, {"unknown subcommand 'evalute'", "did you mean 'evaluate'?"}},
         UsageCase{"StrangeSubcommand", {"xyzzyplugh"}, {"unknown subcommand 'xyzzyplugh'", "--help"}},
+        UsageCase{"NestedSubcommand",
+                  {"vocabulary", "trian"},
+                  {"unknown subcommand 'trian'", "did you mean 'train'?", "`spslam vocabulary --help`"}},
+        UsageCase{"NestedOption",
+                  {"vocabulary", "train", "a", "--levls", "3"},
+                  {"'--levels'", "`spslam vocabulary train --help`"}},
         UsageCase{"GlobalOption",
                   {"--log-levl", "off"},
                   {"unknown option '--log-levl'", "did you mean '--log-level'?"}},
