@@ -7,7 +7,9 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
 #include "cli/process.h"
@@ -21,9 +23,9 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr const char* kFiles[] = {"trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",
-                                  "keyframes.csv",      "mapping.csv",          "config.yaml",
-                                  "metrics.json",       "timing.json",          "log.txt"};
+constexpr const char* kFiles[] = {
+    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv", "mapping.csv",
+    "config.yaml",        "metrics.json",         "timing.json", "log.txt",       "samples"};
 
 // A rendered data set and a place for results.
 class Run : public testing::Test {
@@ -62,8 +64,11 @@ TEST_F(Run, WritesEveryFile) {
   ASSERT_EQ(result_.exit_code, 0) << result_.err;
   EXPECT_EQ(result_.err, "") << "no progress without a terminal";
   EXPECT_THAT(result_.out, AllOf(HasSubstr("16 tracking"), HasSubstr("ATE [m]"), HasSubstr(out())));
-  for (const char* file : kFiles) EXPECT_NE(result(file), "") << file;
+  for (const char* file : kFiles)
+    EXPECT_TRUE(fs::is_directory(out() + "/" + file) || !result(file).empty()) << file;
   EXPECT_EQ(std::distance(fs::directory_iterator(out()), {}), std::ssize(kFiles)) << "and nothing else";
+  EXPECT_EQ(std::distance(fs::directory_iterator(out() + "/samples"), {}), 6);
+  EXPECT_FALSE(result("samples/frame_000001.png").empty());
   EXPECT_EQ(lines("trajectory_kitti.txt"), 16U);
   EXPECT_EQ(parse_tum(result("trajectory_tum.txt"), "").size(), 16U);
   ASSERT_EQ(frames().size(), 16U);
@@ -81,6 +86,23 @@ TEST_F(Run, WritesEveryFile) {
     EXPECT_LE(spread["p50"], spread["p95"]) << stage;
     EXPECT_LE(spread["p95"], spread["max"]) << stage;
   }
+}
+
+TEST_F(Run, SamplesShowNearAndFarFeatures) {
+  ASSERT_EQ(run({"--samples", "2"}).exit_code, 0);
+  const cv::Mat picture = cv::imread(out() + "/samples/frame_000004.png");
+  ASSERT_FALSE(picture.empty());
+  const auto drawn = [&](const cv::Scalar& colour) {
+    cv::Mat same;
+    cv::inRange(picture, colour, colour, same);
+    return cv::countNonZero(same);
+  };
+  EXPECT_GT(drawn({0, 220, 0}), 100);  // near
+  EXPECT_GT(drawn({0, 0, 255}), 5);    // far
+  std::ofstream(out() + "/samples/notes.txt") << "mine";
+  ASSERT_EQ(run({"--samples", "0", "--overwrite"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(out() + "/samples/frame_000004.png"));
+  EXPECT_EQ(result("samples/notes.txt"), "mine");
 }
 
 TEST_F(Run, ReportReadsTheFolder) {

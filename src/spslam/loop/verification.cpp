@@ -59,7 +59,7 @@ class Verifier {
 
   // Solves for the motion with those of `all` that agree with it, again and again; the last ones stay.
   bool refine(const std::vector<Correspondence>& all) {
-    const std::vector<Correspondence> from = all;
+    const std::vector<Correspondence> from(all.begin(), all.end());  // all may be out_.pairs
     for (int round = 0; round < kRounds; ++round) {
       out_.pairs = inliers_of(rig_, out_.newer_from_older, from, options_.consensus.inlier_sigmas);
       const auto refined = refine_motion(rig_, out_.pairs, out_.newer_from_older, kSolverSteps);

@@ -152,7 +152,7 @@ std::optional<SE3> Tracker::starting_pose(const Frame& frame, TrackResult& resul
   if (!was_lost && !must_localize_) return SE3{};
   if (relocalize_ && (must_localize_ || relocalizations_ < options_.state.relocalization_frames)) {
     ++relocalizations_;
-    const auto found = relocalize_(describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
+    auto found = relocalize_(describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
     if (found) {
       result.reason = "found in the map";
       return found;
@@ -178,7 +178,7 @@ void Tracker::begin(const Frame& frame, TrackResult& result) {
     if (was_lost) coast(result.reason, result);
     return;
   }
-  const SE3 pose = *start;
+  const SE3& pose = *start;
   for (ActiveLandmark& active : map_.landmarks) active.missed = options_.follow.max_missed + 1;
   WindowFrame present{frame.id, frame.timestamp, pose, {}, {}};
   make_keyframe(frame, present);

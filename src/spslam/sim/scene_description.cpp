@@ -5,6 +5,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -36,6 +37,17 @@ std::string where(const std::string& source, const YAML::Mark& mark) {
   return source + (mark.is_null() ? "" : ":" + std::to_string(mark.line + 1)) + ": ";
 }
 
+// As set_option(), whose message would point to the system's options instead of the scene's.
+void set_scene_option(SceneDescription& scene, const std::string& key, const std::string& text) {
+  std::vector<std::string> known;
+  for (const OptionText& option : list_options(scene)) known.push_back(option.key);
+  if (std::find(known.begin(), known.end(), key) != known.end()) return set_option(scene, key, text);
+  const std::string nearest = nearest_name(key, known);
+  throw OptionError("a scene has no option '" + key + "'" +
+                    (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
+                    " `spslam simulate SCENE --print` lists all");
+}
+
 // The YAML tree's leaves are the options' dotted keys.
 void read_node(SceneDescription& scene, const YAML::Node& node, const std::string& prefix,
                const std::string& source) {
@@ -49,7 +61,7 @@ void read_node(SceneDescription& scene, const YAML::Node& node, const std::strin
       throw OptionError(where(source, entry.second.Mark()) + "'" + key +
                         "' needs one value, a list is not one");
     try {
-      set_option(scene, key, entry.second.as<std::string>());
+      set_scene_option(scene, key, entry.second.as<std::string>());
     } catch (const OptionError& error) {
       throw OptionError(where(source, entry.first.Mark()) + error.what());
     }
@@ -105,7 +117,7 @@ void apply_setting(SceneDescription& scene, const std::string& assignment) {
   if (equal == std::string::npos || equal == 0)
     throw OptionError("'" + assignment +
                       "' is not a setting; write key=value, for example air.visibility=100");
-  set_option(scene, assignment.substr(0, equal), assignment.substr(equal + 1));
+  set_scene_option(scene, assignment.substr(0, equal), assignment.substr(equal + 1));
 }
 
 void SceneDescription::check() const {

@@ -49,6 +49,7 @@ Sky::Sky(const SkyOptions& options, std::uint32_t seed) : dome_(static_cast<std:
       const float x = 2.0F * (static_cast<float>(i) + 0.5F) / kSize - 1,
                   y = 2.0F * (static_cast<float>(j) + 0.5F) / kSize - 1;
       const float r2 = x * x + y * y;
+      if (r2 > 1.02F) continue;  // below the horizon: nobody looks there
       const Vector3f direction(2 * x / (1 + r2), 2 * y / (1 + r2), std::max(0.0F, (1 - r2) / (1 + r2)));
       dome_[static_cast<std::size_t>(j) * kSize + static_cast<std::size_t>(i)] =
           brightness * sky_colour(direction.normalized(), sun_direction_, options, seed);

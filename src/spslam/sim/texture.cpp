@@ -31,15 +31,21 @@ Texture::Texture(const std::vector<float>& values) {
 namespace {
 
 float value_noise(float x, float y, int period, std::uint32_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto wrap = [period](float cell) {
-    const int rest = static_cast<int>(cell) % period;
+  const auto floor_of = [](float t) {  // std::floor is a call
+    const int whole = static_cast<int>(t);
+    return whole - (static_cast<float>(whole) > t);
+  };
+  const int cx = floor_of(x), cy = floor_of(y);
+  const auto fx = static_cast<float>(cx), fy = static_cast<float>(cy);
+  const auto wrap = [period](int cell) {
+    if (cell >= 0 && cell < period) return static_cast<std::uint32_t>(cell);
+    const int rest = cell % period;
     return static_cast<std::uint32_t>(rest < 0 ? rest + period : rest);
   };
   const auto next = [period](std::uint32_t i) {
     return i + 1 == static_cast<std::uint32_t>(period) ? 0U : i + 1;
   };
-  const std::uint32_t i = wrap(fx), j = wrap(fy), i1 = next(i), j1 = next(j);
+  const std::uint32_t i = wrap(cx), j = wrap(cy), i1 = next(i), j1 = next(j);
   const auto value = [seed](std::uint32_t p, std::uint32_t q) {
     return 2 * unit(mix(p * 0x9e3779b1U ^ q * 0x85ebca77U ^ seed)) - 1;
   };
@@ -63,8 +69,8 @@ float tile_noise(float x, float y, int cells, int octaves, std::uint32_t seed) {
   return sum;
 }
 
-Materials::Materials(std::uint32_t seed) : noise_(noise_pattern(seed)) {
-  textures_ = all_patterns(seed);
+Materials::Materials(std::uint32_t seed, const MaterialSet& used) : noise_(noise_pattern(seed)) {
+  textures_ = patterns(seed, used);
   const auto set = [this](Material material, MaterialLook look) {
     looks_[static_cast<std::size_t>(material)] = look;
   };

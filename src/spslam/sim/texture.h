@@ -17,6 +17,7 @@ namespace spslam::sim {
 class Texture {
  public:
   static constexpr int kSize = 512;
+  Texture() = default;  // must not be sampled
   // `values` has kSize x kSize factors, row-major; what lies outside 0 .. 1.99 is cut off.
   explicit Texture(const std::vector<float>& values);
 
@@ -57,10 +58,13 @@ struct MaterialLook {
   float macro = 0.3F;   // strength of the stains, tens of metres wide
 };
 
-// All textures and looks; made once for a scene.
+// Which materials a scene has, in the enum's order.
+using MaterialSet = std::array<bool, kMaterialCount>;
+
+// Textures and looks of the materials used, no others; made once for a scene.
 class Materials {
  public:
-  explicit Materials(std::uint32_t seed);
+  Materials(std::uint32_t seed, const MaterialSet& used);
 
   // Albedo factor at (u, v) in m where one pixel covers `footprint` m; `dither` in [0, 1) picks between two
   // mip levels.

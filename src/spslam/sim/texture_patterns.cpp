@@ -131,27 +131,31 @@ std::vector<float> noise_pattern(std::uint32_t seed) {
   return fill([=](float x, float y) { return 1 + 0.75F * tile_noise(x, y, 4, 7, seed + 90); });
 }
 
-std::vector<Texture> all_patterns(std::uint32_t seed) {
-  const auto noisy = [seed](float strength, int cells, std::uint32_t stream) {
-    return fill([=](float x, float y) { return 1 + strength * tile_noise(x, y, cells, 6, seed + stream); });
+std::vector<Texture> patterns(std::uint32_t seed, const MaterialSet& used) {
+  std::vector<Texture> textures(kMaterialCount);
+  const auto make = [&](Material material, auto pattern) {
+    const auto index = static_cast<std::size_t>(material);
+    if (used[index]) textures[index] = Texture(fill(pattern));
   };
-  std::vector<Texture> textures;
-  textures.reserve(kMaterialCount);
-  const auto add = [&](const std::vector<float>& values) { textures.emplace_back(values); };
-  add(fill([=](float x, float y) { return rubble(x, y, seed + 1); }));
-  add(fill([=](float x, float y) { return blocks(x, y, 8, 4, 0.045F, seed + 2); }));
-  add(fill([=](float x, float y) { return blocks(x, y, 24, 8, 0.09F, seed + 3); }));
-  add(fill([=](float x, float y) { return concrete(x, y, seed + 4); }));
-  add(noisy(0.8F, 16, 5));
-  add(fill([=](float x, float y) { return wood(x, y, seed + 6); }));
-  add(fill([=](float x, float y) { return leaf(x, y, seed + 7); }));
-  add(noisy(0.25F, 4, 8));
-  add(fill([=](float x, float y) { return facade(x, y, seed + 9); }));
-  add(fill([=](float x, float y) { return roof(x, y, seed + 10); }));
-  add(fill([=](float x, float y) { return forest(x, y, seed + 11); }));
-  add(noisy(0.3F, 8, 12));
-  add(fill([=](float x, float y) { return 1 + 0.6F * tile_noise(x, 0.1F * y, 32, 3, seed + 13); }));
-  add(noisy(0.5F, 2, 14));
+  const auto noisy = [&](Material material, float strength, int cells, std::uint32_t stream) {
+    make(material,
+         [=](float x, float y) { return 1 + strength * tile_noise(x, y, cells, 6, seed + stream); });
+  };
+  make(Material::kRubble, [=](float x, float y) { return rubble(x, y, seed + 1); });
+  make(Material::kMasonry, [=](float x, float y) { return blocks(x, y, 8, 4, 0.045F, seed + 2); });
+  make(Material::kBrick, [=](float x, float y) { return blocks(x, y, 24, 8, 0.09F, seed + 3); });
+  make(Material::kConcrete, [=](float x, float y) { return concrete(x, y, seed + 4); });
+  noisy(Material::kGround, 0.8F, 16, 5);
+  make(Material::kWood, [=](float x, float y) { return wood(x, y, seed + 6); });
+  make(Material::kLeaf, [=](float x, float y) { return leaf(x, y, seed + 7); });
+  noisy(Material::kPlaster, 0.25F, 4, 8);
+  make(Material::kFacade, [=](float x, float y) { return facade(x, y, seed + 9); });
+  make(Material::kRoof, [=](float x, float y) { return roof(x, y, seed + 10); });
+  make(Material::kForest, [=](float x, float y) { return forest(x, y, seed + 11); });
+  noisy(Material::kPaint, 0.3F, 8, 12);
+  make(Material::kReed,
+       [=](float x, float y) { return 1 + 0.6F * tile_noise(x, 0.1F * y, 32, 3, seed + 13); });
+  noisy(Material::kGlass, 0.5F, 2, 14);
   return textures;
 }
 

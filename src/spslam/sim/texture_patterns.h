@@ -12,7 +12,7 @@ namespace spslam::sim {
 
 std::vector<float> noise_pattern(std::uint32_t seed);
 
-// One texture a Material, in the enum's order.
-std::vector<Texture> all_patterns(std::uint32_t seed);
+// One texture a Material, in the enum's order; those that are not used stay empty.
+std::vector<Texture> patterns(std::uint32_t seed, const MaterialSet& used);
 
 }  // namespace spslam::sim

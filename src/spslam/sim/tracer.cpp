@@ -26,6 +26,16 @@ std::vector<Vector3f> viewers_on(const Way& way, float height) {
   return viewers;
 }
 
+MaterialSet used_materials(const Mesh& fixed, const std::vector<TrafficBoat>& boats) {
+  MaterialSet used{};
+  const auto note = [&](const Mesh& mesh) {
+    for (const QuadInfo& quad : mesh.quads) used[static_cast<std::size_t>(quad.material)] = true;
+  };
+  note(fixed);
+  for (const TrafficBoat& boat : boats) note(boat.mesh);
+  return used;
+}
+
 }  // namespace
 
 Tracer::Tracer(const SceneDescription& scene, World world, const Way& way, std::uint32_t seed)
@@ -34,7 +44,7 @@ Tracer::Tracer(const SceneDescription& scene, World world, const Way& way, std::
       courses_(std::move(world.boats)),
       sky_(scene.sky, seed),
       water_(scene.water, scene.rain, seed),
-      materials_(seed) {
+      materials_(seed, used_materials(fixed_->mesh(), courses_)) {
   const std::vector<Vector3f> viewers = viewers_on(way, static_cast<float>(scene.rig.above_water));
   bake_light(*fixed_, *fixed_, sky_, viewers, seed);
   for (TrafficBoat& course : courses_) {

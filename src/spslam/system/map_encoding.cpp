@@ -227,16 +227,16 @@ struct Parts {
 };
 
 Problem first_problem(const Parts& parts, const std::vector<LoopEdge>& loops) {
-  if (const Problem problem = problem_of(parts.ids)) return problem;
+  if (Problem problem = problem_of(parts.ids)) return problem;
   for (const Landmark* landmark : parts.landmarks)
-    if (const Problem problem = problem_of(*landmark, parts.ids)) return problem;
+    if (Problem problem = problem_of(*landmark, parts.ids)) return problem;
   std::vector<KeyframeId> parents;
   for (const Keyframe* keyframe : parts.keyframes) {
-    if (const Problem problem = problem_of(*keyframe, parts.ids)) return problem;
+    if (Problem problem = problem_of(*keyframe, parts.ids)) return problem;
     parents.push_back(keyframe->parent);
   }
   for (const LoopEdge& edge : loops)
-    if (const Problem problem = problem_of(edge, parts.ids)) return problem;
+    if (Problem problem = problem_of(edge, parts.ids)) return problem;
   return problem_of_tree(parents, parts.ids);
 }
 
@@ -249,10 +249,10 @@ void check(const StereoRig& rig, const std::string& name) {
 }
 
 // Parents come first: the map gives a keyframe that has none the newest one as its parent.
-Map assemble(std::vector<Landmark> landmarks, std::vector<Keyframe> keyframes,
+Map assemble(const std::vector<Landmark>& landmarks, std::vector<Keyframe> keyframes,
              const std::vector<LoopEdge>& loops) {
   Map map;
-  for (Landmark& landmark : landmarks) map.add(landmark);
+  for (const Landmark& landmark : landmarks) map.add(landmark);
   std::stable_partition(keyframes.begin(), keyframes.end(),
                         [](const Keyframe& k) { return !k.parent.valid(); });
   for (Keyframe& keyframe : keyframes) map.add(std::move(keyframe));
@@ -267,7 +267,7 @@ std::vector<std::byte> encode_map(const Map& map, const StereoRig& rig, std::siz
   Parts parts;
   for (const auto& [id, landmark] : map.landmarks()) parts.add(landmark);
   for (const auto& [id, keyframe] : map.keyframes()) parts.add(keyframe);
-  if (const Problem problem = first_problem(parts, map.loops()))
+  if (Problem problem = first_problem(parts, map.loops()))
     throw OutputError("the map is not saved, for nobody could read it: " + *problem +
                       "; this is an error of the program, please report it");
   ByteWriter out(header_bytes + encoded_size(map));
@@ -294,9 +294,9 @@ SavedMap decode_map(std::span<const std::byte> bytes, const std::string& name) {
   Parts parts;
   for (const Landmark& landmark : landmarks) parts.add(landmark);
   for (const Keyframe& keyframe : keyframes) parts.add(keyframe);
-  if (const Problem problem = first_problem(parts, loops))
+  if (Problem problem = first_problem(parts, loops))
     throw InputError(name + ": " + *problem + "; the file is damaged, use another copy or make it anew");
-  saved.map = assemble(std::move(landmarks), std::move(keyframes), loops);
+  saved.map = assemble(landmarks, std::move(keyframes), loops);
   return saved;
 }
 
