@@ -186,7 +186,7 @@ int run_dataset(const RunArguments& arguments) {
   if (arguments.sequential) options.threads = Threads::kSequential;
   const std::unique_ptr<Dataset> dataset = open_dataset(arguments.dataset, arguments.reading);
   Slam slam(dataset->rig(), options, known_map(arguments, dataset->rig()));
-  Prefetcher frames(*dataset, arguments.start, arguments.end);
+  Prefetcher frames(*dataset, arguments.start, arguments.end, 2);
   const ResultFolder folder(arguments.output, arguments.overwrite);
   folder.write("config.yaml", std::string("# spslam " SPSLAM_VERSION ", preset ") +
                                   preset_name(arguments.options.preset) +
