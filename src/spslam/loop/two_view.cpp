@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kLeastDisparity = -1.5;  // px; noise puts what is far away beyond infinity, but not farther
+constexpr double kNearer = 3.6;           // ratio of distances that a pyramid of 8 levels spans
 constexpr double kUsableDepth = 2;        // standard deviations of the inverse depth from 0
 constexpr int kSample = 3;
 constexpr int kDirections = 4;      // at least that many samples in a row go without depths
@@ -165,6 +166,10 @@ class ConsensusSearch {
 double squared_error(const StereoRig& rig, const SE3& newer_from_older, const Correspondence& c) {
   const Linearized at = linearize(rig, newer_from_older, c.bearing, c.inverse_depth, c.measured);
   if (!at.in_front) return kInfinite;
+  const double nearer =
+      (newer_from_older.rotation * c.bearing + c.inverse_depth * newer_from_older.translation).norm() /
+      c.bearing.norm();
+  if (!(nearer < kNearer && nearer * kNearer > 1)) return kInfinite;
   const Eigen::Vector3d r = at.residual.cwiseProduct(c.inverse_sigma);
   const Eigen::Vector3d a = at.by_inverse_depth.cwiseProduct(c.inverse_sigma);
   const double hessian = c.information + a.squaredNorm(), gradient = a.dot(r);
@@ -172,6 +177,14 @@ double squared_error(const StereoRig& rig, const SE3& newer_from_older, const Co
   const double best = c.inverse_depth - gradient / hessian;
   if (!(best * rig.disparity_per_inverse_depth() > kLeastDisparity)) return kInfinite;
   return r.squaredNorm() - gradient * gradient / hessian;
+}
+
+Correspondence widened(const StereoRig& rig, const SE3& newer_from_older, Correspondence c, double share) {
+  const Linearized at = linearize(rig, newer_from_older, c.bearing, c.inverse_depth, c.measured);
+  if (!at.in_front || !(c.inverse_sigma.x() > 0)) return c;
+  const double way = at.by_inverse_depth.head<2>().norm() * std::abs(c.inverse_depth);
+  c.inverse_sigma.head<2>().setConstant(1 / std::hypot(1 / c.inverse_sigma.x(), share * way));
+  return c;
 }
 
 std::vector<Correspondence> inliers_of(const StereoRig& rig, const SE3& newer_from_older,

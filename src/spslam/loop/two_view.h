@@ -21,8 +21,14 @@ struct Correspondence {
 };
 
 // Squared error in standard deviations with the inverse depth moved to where it fits best; infinite behind
-// the camera or where the best fit is clearly beyond infinity.
+// the camera, where the best fit is clearly beyond infinity, and where one camera is so much nearer to the
+// point than the other that no descriptor could have matched.
 double squared_error(const StereoRig& rig, const SE3& newer_from_older, const Correspondence& c);
+
+// The same with its position as uncertain as the way makes it that the point moved in the image against those
+// at infinity: what stands out in depth does not look the same from elsewhere. `share` of that way (px) is
+// added to the deviation.
+Correspondence widened(const StereoRig& rig, const SE3& newer_from_older, Correspondence c, double share);
 
 std::vector<Correspondence> inliers_of(const StereoRig& rig, const SE3& newer_from_older,
                                        const std::vector<Correspondence>& all, double sigmas);

@@ -61,7 +61,11 @@ class Verifier {
   bool refine(const std::vector<Correspondence>& all) {
     const std::vector<Correspondence> from(all.begin(), all.end());  // all may be out_.pairs
     for (int round = 0; round < kRounds; ++round) {
-      out_.pairs = inliers_of(rig_, out_.newer_from_older, from, options_.consensus.inlier_sigmas);
+      std::vector<Correspondence> weighed;
+      weighed.reserve(from.size());
+      for (const Correspondence& c : from)
+        weighed.push_back(widened(rig_, out_.newer_from_older, c, options_.parallax_share));
+      out_.pairs = inliers_of(rig_, out_.newer_from_older, weighed, options_.consensus.inlier_sigmas);
       const auto refined = refine_motion(rig_, out_.pairs, out_.newer_from_older, kSolverSteps);
       if (!refined) return false;
       out_.newer_from_older = refined->newer_from_older;

@@ -17,12 +17,13 @@ struct VerificationOptions {
   MatchingOptions matching;
   ConsensusOptions consensus;
   double position_sigma = 0.8;
+  double parallax_share = 0.03;
   double depth_share = 0.1;
   double disparity_bias = 0.05;
   double guided_radius = 10;
   int guided_distance = 72;
   int min_matches = 15;
-  int min_consensus = 12;
+  int min_consensus = 20;
   int min_inliers = 30;
   double min_inlier_share = 0.5;
   double min_visible_share = 0.08;
@@ -37,6 +38,9 @@ struct VerificationOptions {
     visit.group("matching", self.matching);
     visit.group("consensus", self.consensus);
     visit(self.position_sigma, {"position_sigma", "px", "of a feature's position, on full size", 0.05, 10});
+    visit(
+        self.parallax_share,
+        {"parallax_share", "", "more of it, over the way that the point moved against the background", 0, 1});
     visit(self.depth_share,
           {"depth_share", "", "by which inverse depths of different times may disagree", 0, 1});
     visit(self.disparity_bias, {"disparity_bias", "px", "error that all disparities may share", 0, 5});

@@ -129,6 +129,9 @@ std::optional<SE3> Stages::relocalize(const KeyframeFeatures& features) {
   const RelocalizationAttempt attempt =
       spslam::relocalize(features, mapper_.map(), rig_, closer_.index(), options_.loop.relocalization);
   if (!attempt.found) return std::nullopt;
+  spdlog::info("found in the map: {} points agree with keyframe {}, uncertainty {:.2f} m",
+               attempt.found->inliers, attempt.found->reference.value,
+               std::sqrt(attempt.found->covariance.topLeftCorner<3, 3>().trace()));
   return attempt.found->camera_from_world;
 }
 

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// A map that outlives its run, and a camera that is lost and found in it.
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+
+#include "spslam/system/map_file.h"
+#include "system/scene_run.h"
+
+namespace spslam {
+namespace {
+
+using namespace test;
+
+StereoFrame at_time(StereoFrame pair, double timestamp) {
+  pair.timestamp = timestamp;
+  return pair;
+}
+
+// Another place that looks as real: the scene in a mirror. New images, for those of the pair are shared.
+StereoFrame mirrored(const StereoFrame& pair, double timestamp) {
+  StereoFrame out;
+  out.timestamp = timestamp;
+  cv::flip(pair.right, out.left, 1);
+  cv::flip(pair.left, out.right, 1);
+  return out;
+}
+
+// The map of a run over all pairs, after a way through a file.
+Map saved_and_loaded() {
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / "spslam_continued_map_test.map";
+  {
+    Slam slam(scene_rig(), sequential_options());
+    for (const StereoFrame& pair : scene_pairs()) slam.track(pair);
+    slam.finish();
+    slam.save(path);
+  }
+  SavedMap saved = load_map(path);
+  std::filesystem::remove(path);
+  check_same_rig(saved.rig, scene_rig());
+  return std::move(saved.map);
+}
+
+double distance_from_truth(const TrackResult& result, int index) {
+  return (result.world_from_camera.translation - scene_pose(index).translation).norm();
+}
+
+TEST(ContinuedMap, FramesAreFoundAndTrackedInTheWorldOfTheMap) {
+  Slam slam(scene_rig(), sequential_options(), saved_and_loaded());
+  const std::size_t known = slam.keyframes().size();
+  ASSERT_GT(known, 0U);
+  double time = 100;
+  for (int i = 6; i < kSceneFrames; ++i) {
+    const TrackResult result = slam.track(at_time(scene_pairs()[static_cast<std::size_t>(i)], time += 0.1));
+    ASSERT_EQ(result.status, TrackStatus::kTracking) << i << ": " << result.reason;
+    EXPECT_EQ(result.reason, i == 6 ? "found in the map" : "");
+    EXPECT_LT(distance_from_truth(result, i), 0.05) << i;
+  }
+  slam.finish();
+  EXPECT_GT(slam.keyframes().size(), known);
+}
+
+// A wrong pose would be worse than none.
+TEST(ContinuedMap, AnotherPlaceIsNotTakenForThisOne) {
+  Slam slam(scene_rig(), sequential_options(), saved_and_loaded());
+  double time = 100;
+  for (const StereoFrame& pair : scene_pairs()) {
+    const TrackResult result = slam.track(mirrored(pair, time += 0.1));
+    EXPECT_EQ(result.status, TrackStatus::kInitializing);
+    EXPECT_EQ(result.reason, "not recognized in the map");
+  }
+}
+
+TEST(Relocalization, ALostCameraIsFoundWhereItIsAndNotWhereItsVelocityLed) {
+  Slam slam(scene_rig(), sequential_options());
+  double time = 0;
+  for (const StereoFrame& pair : scene_pairs()) slam.track(at_time(pair, time += 0.1));
+  StereoFrame black;
+  black.problem = "black";
+  TrackResult result;
+  for (int i = 0; i < 30; ++i) result = slam.track(at_time(black, time += 0.1));
+  ASSERT_EQ(result.status, TrackStatus::kLost);
+  constexpr int kPlace = 5;
+  for (int tries = 0; tries < 10 && result.status == TrackStatus::kLost; ++tries)
+    result = slam.track(at_time(scene_pairs()[kPlace], time += 0.1));
+  EXPECT_EQ(result.status, TrackStatus::kTracking);
+  EXPECT_EQ(result.reason, "found in the map");
+  EXPECT_LT(distance_from_truth(result, kPlace), 0.05);
+}
+
+TEST(Relocalization, WithoutAnyKnownPlaceTrackingBeginsAnew) {
+  SlamOptions options = sequential_options();
+  options.tracker.state.relocalization_frames = 2;
+  Slam slam(scene_rig(), options);
+  double time = 0;
+  for (const StereoFrame& pair : scene_pairs()) slam.track(at_time(pair, time += 0.1));
+  StereoFrame black;
+  black.problem = "black";
+  TrackResult result;
+  for (int i = 0; i < 30; ++i) result = slam.track(at_time(black, time += 0.1));
+  for (int i = 0; i < 2; ++i) {
+    result = slam.track(mirrored(scene_pairs()[0], time += 0.1));
+    EXPECT_EQ(result.status, TrackStatus::kLost);
+  }
+  result = slam.track(mirrored(scene_pairs()[0], time += 0.1));
+  EXPECT_EQ(result.status, TrackStatus::kTracking);
+  EXPECT_THAT(result.reason, testing::HasSubstr("begun anew"));
+}
+
+}  // namespace
+}  // namespace spslam
