@@ -7,6 +7,8 @@ add_library(spslam_build_flags INTERFACE)
 target_compile_options(spslam_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align
   -fPIC -ffp-contract=off $<$<BOOL:${SPSLAM_WARNINGS_AS_ERRORS}>:-Werror>)
+# gcc 12 sees overflows in its own library's strings and fills once they are inlined.
+target_compile_options(spslam_build_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
 if(SPSLAM_SANITIZE)
   target_compile_options(spslam_build_flags INTERFACE -fsanitize=${SPSLAM_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(spslam_build_flags INTERFACE -fsanitize=${SPSLAM_SANITIZE})
