@@ -27,9 +27,10 @@ render: {detail: 0.1, samples: 1, edge_samples: 0}
 )";
 
 // `spslam simulate` of the small scene into the folder "data".
-std::vector<std::string> command(const ScratchFolder& folder, const std::vector<std::string>& more = {}) {
+std::vector<std::string> command(const ScratchFolder& folder, const std::vector<std::string>& more = {},
+                                 const char* frames = "3") {
   std::vector<std::string> words = {
-      "simulate", folder.write("small.yaml", kScene), "--output", folder.path("data"), "--frames", "3"};
+      "simulate", folder.write("small.yaml", kScene), "--output", folder.path("data"), "--frames", frames};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -55,14 +56,14 @@ TEST(Simulate, WritesADataSetThatRunReads) {
 
 TEST(Simulate, TheSameSeedGivesTheSameBytes) {
   const ScratchFolder folder;
-  EXPECT_EQ(run_spslam(command(folder, {"--frames", "1", "--seed", "7"})).exit_code, 0);
+  EXPECT_EQ(run_spslam(command(folder, {"--seed", "7"}, "1")).exit_code, 0);
   const auto image = [&] {
     return read_file(fs::directory_iterator(folder.path("data/image_1"))->path().string());
   };
   const std::string first = image();
-  EXPECT_EQ(run_spslam(command(folder, {"--frames", "1", "--seed", "7", "--overwrite"})).exit_code, 0);
+  EXPECT_EQ(run_spslam(command(folder, {"--seed", "7", "--overwrite"}, "1")).exit_code, 0);
   EXPECT_EQ(image(), first);
-  EXPECT_EQ(run_spslam(command(folder, {"--frames", "1", "--seed", "8", "--overwrite"})).exit_code, 0);
+  EXPECT_EQ(run_spslam(command(folder, {"--seed", "8", "--overwrite"}, "1")).exit_code, 0);
   EXPECT_NE(image(), first);
 }
 
@@ -109,8 +110,8 @@ TEST(Simulate, WritesIntoAnEmptyFolderOnly) {
 
 TEST(Simulate, AnInterruptedRunLeavesAFolderThatIsRefused) {
   const ScratchFolder folder;
-  RunningSpslam running(command(folder, {"--frames", "3000"}));
-  while (files_in(folder.path("data/image_1")) < 2) usleep(1000);
+  RunningSpslam running(command(folder, {}, "3000"));
+  for (int i = 0; i < 60000 && files_in(folder.path("data/image_1")) < 2; ++i) usleep(1000);
   running.send(SIGINT);
   const ProcessResult stopped = running.wait();
   EXPECT_EQ(stopped.exit_code, 130);
