@@ -24,7 +24,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr const char* kFiles[] = {
-    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv", "mapping.csv",
+    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv", "mapping.csv", "loops.csv",
     "config.yaml",        "metrics.json",         "timing.json", "log.txt",       "samples"};
 
 // A rendered data set and a place for results.
