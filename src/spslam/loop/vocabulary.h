@@ -5,6 +5,7 @@
 // 2006; Galvez-Lopez and Tardos, "Bags of binary words for fast place recognition in image sequences", 2012).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -83,8 +84,8 @@ class Vocabulary {
   static Vocabulary train(std::span<const std::vector<Descriptor>> images,
                           const VocabularyOptions& options = {});
 
-  // Maps a file into memory (docs/FORMATS.md has its layout). Throws InputError that says what is wrong with
-  // it and what to do.
+  // Maps a file into memory (vocabulary_file.cpp has its layout). Throws InputError that says what is wrong
+  // with it and what to do.
   static Vocabulary open(const std::filesystem::path& path);
   // The content of such a file, copied; name stands for it in messages.
   static Vocabulary parse(std::span<const std::byte> file, const std::string& name);
@@ -93,7 +94,7 @@ class Vocabulary {
   // The content of a file.
   std::span<const std::byte> bytes() const { return bytes_; }
 
-  // The text format of DBoW2 (docs/FORMATS.md): one line a node. Scores are always L1, whatever it says.
+  // The text format of DBoW2 (vocabulary_text.cpp): one line a node. Scores are always L1, whatever it says.
   static Vocabulary read_dbow2_text(const std::filesystem::path& path);
   static Vocabulary parse_dbow2_text(std::string_view text, const std::string& name);
   void write_dbow2_text(const std::filesystem::path& path) const;
