@@ -12,6 +12,7 @@ namespace spslam {
 namespace {
 
 constexpr int kRounds = 3;  // of refinement and new inliers
+constexpr int kGuidedRounds = 2;
 constexpr int kSolverSteps = 15;
 constexpr int kCells = 8;         // along each side of the image
 constexpr double kWellKnown = 4;  // standard deviations of an inverse depth from 0 that is compared
@@ -74,10 +75,11 @@ class Verifier {
     return true;
   }
 
-  // Guided matching, twice: the better the motion, the nearer the matches.
+  // Guided matching, twice. Within a radius far greater than an inlier's error, so that what is no match is
+  // hardly ever an inlier by chance, and the share of inliers tells a right motion from a wrong one.
   bool gather() {
-    for (const double radius : {options_.guided_radius, 0.6 * options_.guided_radius}) {
-      const std::vector<Correspondence> guided = all_.guided(out_.newer_from_older, radius);
+    for (int round = 0; round < kGuidedRounds; ++round) {
+      const std::vector<Correspondence> guided = all_.guided(out_.newer_from_older, options_.guided_radius);
       out_.guided = static_cast<int>(guided.size());
       if (!refine(guided)) return false;
     }

@@ -20,7 +20,7 @@ struct VerificationOptions {
   double parallax_share = 0.03;
   double depth_share = 0.1;
   double disparity_bias = 0.05;
-  double guided_radius = 10;
+  double guided_radius = 30;
   int guided_distance = 72;
   int min_matches = 15;
   int min_consensus = 20;
