@@ -222,7 +222,7 @@ std::string html_report(const ReportInput& input) {
   html += section("From above", top_view(input));
   if (input.evaluation)
     html += section("Errors", metrics_table(*input.evaluation)) + error_charts(*input.evaluation);
-  html += section("Near (green) and far (red) features", images(input.images));
+  html += section("Near (green), far (red) and mirrored (orange) features", images(input.images));
   html += section("Features of each frame", feature_chart(input.frames));
   html += "<div class=\"two\">" + section("Time a frame", timing_table(input.timing)) +
           section("The run", facts_table(input.facts)) + "</div>\n";
