@@ -187,6 +187,15 @@ Correspondence widened(const StereoRig& rig, const SE3& newer_from_older, Corres
   return c;
 }
 
+double translation_information(const StereoRig& rig, const SE3& newer_from_older, const Correspondence& c) {
+  const Linearized at = linearize(rig, newer_from_older, c.bearing, c.inverse_depth, c.measured);
+  if (!at.in_front) return 0;
+  const Eigen::Matrix3d j = c.inverse_sigma.asDiagonal() * at.by_relative.leftCols<3>();
+  const Eigen::Vector3d a = at.by_inverse_depth.cwiseProduct(c.inverse_sigma);
+  const double hessian = c.information + a.squaredNorm();
+  return j.squaredNorm() - (hessian > 0 ? (j.transpose() * a).squaredNorm() / hessian : 0);
+}
+
 std::vector<Correspondence> inliers_of(const StereoRig& rig, const SE3& newer_from_older,
                                        const std::vector<Correspondence>& all, double sigmas) {
   std::vector<Correspondence> out;

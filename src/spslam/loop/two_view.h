@@ -30,6 +30,9 @@ double squared_error(const StereoRig& rig, const SE3& newer_from_older, const Co
 // added to the deviation.
 Correspondence widened(const StereoRig& rig, const SE3& newer_from_older, Correspondence c, double share);
 
+// What it says of the translation, 1/m^2, with its inverse depth eliminated: trace of the information.
+double translation_information(const StereoRig& rig, const SE3& newer_from_older, const Correspondence& c);
+
 std::vector<Correspondence> inliers_of(const StereoRig& rig, const SE3& newer_from_older,
                                        const std::vector<Correspondence>& all, double sigmas);
 

@@ -90,6 +90,7 @@ class Verifier {
   VerificationStage judge() {
     out_.visible = all_.visible(out_.newer_from_older);
     out_.cells = count_cells();
+    if (!trim()) return VerificationStage::kUncertain;
     add_common_bias();
     const auto deviation = [&](int first) {
       const Eigen::Matrix3d block = out_.covariance.block<3, 3>(first, first);
@@ -114,16 +115,37 @@ class Verifier {
     return static_cast<int>(cells.size());
   }
 
+  // A few wrong matches of near points can pull the translation and look sure of it, while the many far ones
+  // have no say. So the motion is as uncertain as it is without those that say most, and as the difference.
+  bool trim() {
+    std::vector<std::pair<double, int>> say;
+    for (std::size_t i = 0; i < out_.pairs.size(); ++i)
+      say.emplace_back(-translation_information(rig_, out_.newer_from_older, out_.pairs[i]),
+                       static_cast<int>(i));
+    std::sort(say.begin(), say.end());
+    std::vector<Correspondence> rest;
+    const auto first =
+        static_cast<std::size_t>(std::ceil(options_.trimmed_share * static_cast<double>(say.size())));
+    for (std::size_t i = first; i < say.size(); ++i) rest.push_back(out_.pairs[say[i].second]);
+    const auto without = refine_motion(rig_, rest, out_.newer_from_older, kSolverSteps);
+    if (!without) return false;
+    const Vector6d off = (without->newer_from_older * out_.newer_from_older.inverse()).log();
+    out_.covariance = without->covariance * std::max(1.0, without->cost_per_freedom) + off * off.transpose();
+    return true;
+  }
+
   // An error that all disparities share scales what they measure: the translation by bias over disparity,
-  // the disparities weighed as they weigh in the translation, by their squares.
+  // the disparities weighed as they weigh in the translation, by their squares. And where the two sides'
+  // depths are of different scale, one of them is wrong, and the translation as well.
   void add_common_bias() {
     double sum = 0, squares = 0;
     for (const Correspondence& c : out_.pairs) {
       const double disparity = std::max(0.0, c.inverse_depth * rig_.disparity_per_inverse_depth());
       sum += disparity, squares += disparity * disparity;
     }
-    if (!(squares > 0)) return;
-    const Eigen::Vector3d off = options_.disparity_bias * sum / squares * out_.newer_from_older.translation;
+    const double bias = squares > 0 ? options_.disparity_bias * sum / squares : 0;
+    const double disagreement = options_.free_scale ? 0 : std::log(out_.scale);
+    const Eigen::Vector3d off = std::hypot(bias, disagreement) * out_.newer_from_older.translation;
     out_.covariance.topLeftCorner<3, 3>() += off * off.transpose();
   }
 

@@ -20,6 +20,7 @@ struct VerificationOptions {
   double parallax_share = 0.03;
   double depth_share = 0.1;
   double disparity_bias = 0.05;
+  double trimmed_share = 0.1;
   double guided_radius = 30;
   int guided_distance = 72;
   int min_matches = 15;
@@ -28,7 +29,7 @@ struct VerificationOptions {
   double min_inlier_share = 0.5;
   double min_visible_share = 0.08;
   int min_cells = 8;
-  double max_translation_sigma = 0.25;
+  double max_translation_sigma = 0.4;
   double max_rotation_sigma = 1;
   bool free_scale = false;
 
@@ -44,6 +45,9 @@ struct VerificationOptions {
     visit(self.depth_share,
           {"depth_share", "", "by which inverse depths of different times may disagree", 0, 1});
     visit(self.disparity_bias, {"disparity_bias", "px", "error that all disparities may share", 0, 5});
+    visit(self.trimmed_share,
+          {"trimmed_share", "",
+           "inliers that say most of the translation, without which it must follow just as well", 0, 0.9});
     visit(self.guided_radius,
           {"guided_radius", "px", "from where the motion puts a point to its match", 1, 100});
     visit(self.guided_distance,
