@@ -55,6 +55,25 @@ TEST(Evaluate, JsonParses) {
   EXPECT_EQ(json["rpe_m_per_s"]["count"], 91);
 }
 
+// The estimate is in the world of a map that begins where another run began.
+TEST(Evaluate, OriginAndShareWithin) {
+  const ScratchFolder files;
+  std::string estimate, truth;
+  for (int i = 0; i < 10; ++i) {
+    const double error = i < 7 ? 0.1 : 0.5;
+    estimate += std::to_string(0.1 * i) + " " + std::to_string(i + error) + " 0 0 0 0 0 1\n";
+    truth += std::to_string(0.1 * i) + " 5 " + std::to_string(i) + " 0 0 0 0.7071067811865 0.7071067811865\n";
+  }
+  const std::string origin = "0 5 0 0 0 0 0.7071067811865 0.7071067811865\n1 9 9 9 0 0 0 1\n";
+  const ProcessResult result =
+      run_spslam({"evaluate", files.write("e.txt", estimate), files.write("t.txt", truth), "--origin",
+                  files.write("o.txt", origin), "--align", "none", "--within", "0.3", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(json["share_within"].get<double>(), 0.7, 1e-9);
+  EXPECT_NEAR(json["ate_m"]["max"].get<double>(), 0.5, 1e-5);
+}
+
 TEST(Evaluate, KittiFilesWithoutTimesGoByIndex) {
   const ScratchFolder files;
   const ProcessResult result = run_spslam({"evaluate", files.write("e.txt", kitti_line(200, 1.01)),

@@ -90,5 +90,16 @@ TEST(Motion, TheLeftEyeIsWhereTheRigSays) {
   EXPECT_LT((BoatMotion(scene, 1).body_from_left().rotation * Eigen::Vector3d(0, 0, 1)).z(), -0.1);
 }
 
+// Another passage goes the same way with other waves.
+TEST(BoatMotion, PassagesDifferInWavesOnly) {
+  SceneDescription scene = load_scene("bank");
+  const BoatMotion first(scene, 4);
+  scene.passage = 2;
+  const BoatMotion second(scene, 4);
+  EXPECT_EQ(first.way().position(30), second.way().position(30));
+  EXPECT_GT((first.world_from_left(3).translation - second.world_from_left(3).translation).norm(), 1e-3);
+  EXPECT_LT((first.world_from_left(0.5).translation - second.world_from_left(0.5).translation).norm(), 1.0);
+}
+
 }  // namespace
 }  // namespace spslam::sim

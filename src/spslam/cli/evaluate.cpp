@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "spslam/base/error.h"
 #include "spslam/cli/commands.h"
 #include "spslam/eval/evaluation.h"
 #include "spslam/eval/trajectory_pair.h"
@@ -14,12 +15,19 @@ namespace {
 struct EvaluateArguments {
   TrajectoryPairFiles files;
   EvaluationOptions options;
+  std::string origin;
   bool kitti = false;
   bool json = false;
 };
 
 int evaluate_files(const EvaluateArguments& arguments) {
-  const TrajectoryPair pair = read_trajectory_pair(arguments.files);
+  TrajectoryPair pair = read_trajectory_pair(arguments.files);
+  if (!arguments.origin.empty()) {
+    const Trajectory origin = read_trajectory(arguments.origin, {arguments.files.truth_format, {}, {}});
+    if (origin.empty()) throw InputError(arguments.origin + " has no pose, so it says nothing of the origin");
+    for (StampedPose& pose : pair.truth)
+      pose.world_from_camera = origin.front().world_from_camera.inverse() * pose.world_from_camera;
+  }
   EvaluationOptions options = arguments.options;
   options.association.by_index = pair.by_index;
   const Evaluation evaluation = evaluate(pair.estimate, pair.truth, options);
@@ -59,6 +67,10 @@ void add_metric_options(CLI::App& command, EvaluationOptions& options) {
   command.add_option("--up-truth", options.up_truth, "The same of the truth's world")
       ->transform(enum_names<UpAxis>())
       ->type_name("AXIS");
+  command
+      .add_option("--within", options.within,
+                  "Print the share of the truth's poses that the estimate is so many metres from at most")
+      ->type_name("M");
   AssociationOptions& association = options.association;
   command.add_option("--tolerance", association.tolerance, "Largest difference of the times of a pair in s")
       ->capture_default_str();
@@ -79,6 +91,12 @@ void add_evaluate(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   add_file_options(*command, arguments->files);
   add_metric_options(*command, arguments->options);
+  command
+      ->add_option(
+          "--origin", arguments->origin,
+          "Trajectory whose first pose is the world of the estimate, in the world of the truth: that of "
+          "the run that made the map. Goes with --align none")
+      ->type_name("FILE");
   command->add_flag("--kitti", arguments->kitti, "The KITTI metric of each length too");
   command->add_flag("--json", arguments->json, "Print one JSON object instead of text");
   command->callback([arguments, &chosen] { chosen = [arguments] { return evaluate_files(*arguments); }; });

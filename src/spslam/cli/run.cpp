@@ -34,6 +34,7 @@ struct RunArguments {
   int end = std::numeric_limits<int>::max();
   int samples = 6;
   std::string save_map, load_map;
+  bool localize = false;
   bool sequential = false, realtime = false, overwrite = false, quiet = false;
 };
 
@@ -184,6 +185,7 @@ Map known_map(const RunArguments& arguments, const StereoRig& rig) {
 int run_dataset(const RunArguments& arguments) {
   SlamOptions options = effective_options(arguments.options);
   if (arguments.sequential) options.threads = Threads::kSequential;
+  if (arguments.localize) options.localization.enabled = true;
   const std::unique_ptr<Dataset> dataset = open_dataset(arguments.dataset, arguments.reading);
   Slam slam(dataset->rig(), options, known_map(arguments, dataset->rig()));
   Prefetcher frames(*dataset, arguments.start, arguments.end, 2);
@@ -248,8 +250,13 @@ void add_run(CLI::App& app, Command& chosen) {
       ->type_name("FILE");
   command
       ->add_option("--load-map", arguments->load_map,
-                   "Map to continue: tracking begins once a frame is recognized in it")
+                   "Map to continue: tracking begins once a frame is recognized in it; or see --localize")
       ->type_name("FILE");
+  command
+      ->add_flag("--localize", arguments->localize,
+                 "Say where in that map the boat is and leave the map as it is (localization.enabled)")
+      ->needs("--load-map")
+      ->excludes("--save-map");
   command
       ->add_option("--samples", arguments->samples,
                    "Pictures of the run's features, near and far, for its report")

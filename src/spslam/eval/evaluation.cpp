@@ -5,6 +5,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "spslam/base/error.h"
@@ -71,6 +72,9 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   result.poses = aligned_poses(aligned.truth_from_estimate, poses);
   if (options.planar) align_headings(result.poses);
   result.ate = absolute_trajectory_error(result.poses);
+  const auto right = std::count_if(result.ate.errors.begin(), result.ate.errors.end(),
+                                   [&](double error) { return error <= options.within; });
+  result.share_within = static_cast<double>(right) / static_cast<double>(truth.size());
   const std::span<const AssociatedPose> timed(result.poses.data(),
                                               options.association.by_index ? 0 : result.poses.size());
   result.rpe_per_second = relative_pose_error_per_second(timed, options.rpe_interval);

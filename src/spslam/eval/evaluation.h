@@ -20,6 +20,7 @@ struct EvaluationOptions {
   UpAxis up_estimate = UpAxis::kAuto;
   UpAxis up_truth = UpAxis::kAuto;
   double rpe_interval = 1;
+  double within = 0;
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.group("association", self.association);
@@ -29,6 +30,8 @@ struct EvaluationOptions {
     visit(self.up_truth, {"up_truth", "", "axis that points up in the truth's world (planar)"});
     visit(self.rpe_interval,
           {"rpe_interval", "s", "time over which the relative error is measured", 1e-3, 1e6});
+    visit(self.within,
+          {"within", "m", "error up to which a pose counts as right; 0: none is counted", 0, 1e6});
   }
 };
 
@@ -44,6 +47,7 @@ struct Evaluation {
   Similarity truth_from_estimate;  // as applied; planar: between the levelled worlds
   double scale_ratio = 0;  // the factor by which the estimate would have to be scaled (Sim(3)); NaN: unknown
   AteResult ate;
+  double share_within = 0;         // poses within options.within of the truth, over all poses of the truth
   RpeResult rpe_per_second;        // no motion if by index
   RpeResult rpe_per_frame;         // between neighbouring associated poses
   KittiResult kitti;               // always without alignment and scale

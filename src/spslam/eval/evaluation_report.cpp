@@ -85,6 +85,9 @@ std::string brief_report(const Evaluation& e, const ReportStyle& style) {
   }
   text += row("RPE per frame [m]", e.rpe_per_frame.translation);
   text += row("RPE per frame [deg]", e.rpe_per_frame.rotation);
+  if (e.options.within > 0)
+    text += fmt::format("within {} m          {:.1f} % of the {} poses of the truth\n", e.options.within,
+                        100 * e.share_within, e.truth_poses);
   if (style.kitti_lengths || e.kitti.count > 0) text += kitti_text(e.kitti, style.kitti_lengths);
   for (const std::string& note : e.notes) text += "note: " + note + "\n";
   return text;
@@ -105,6 +108,7 @@ std::string json_report(const Evaluation& e) {
       {"scale_ratio", e.scale_ratio},
       {"truth_from_estimate", json_of(e.truth_from_estimate)},
       {"ate_m", json_of(e.ate.position)},
+      {"share_within", e.options.within > 0 ? Json(e.share_within) : Json()},
       {"rpe_m_per_s", json_of(e.rpe_per_second.translation)},
       {"rpe_deg_per_s", json_of(e.rpe_per_second.rotation)},
       {"rpe_m_per_frame", json_of(e.rpe_per_frame.translation)},

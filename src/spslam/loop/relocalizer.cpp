@@ -24,22 +24,27 @@ bool agree(const Relocalized& a, const Relocalized& b) {
 
 RelocalizationAttempt relocalize(const KeyframeFeatures& query, const Map& map, const StereoRig& rig,
                                  const KeyframeIndex& index, const RelocalizationOptions& options,
-                                 const std::set<KeyframeId>& exclude) {
+                                 const std::set<KeyframeId>& exclude, std::span<const KeyframeId> guesses) {
   RelocalizationAttempt out;
-  const std::vector<CandidateGroup> groups = group_candidates(index.query(query, exclude), map);
   bool contradiction = false;
-  for (const CandidateGroup& group : groups) {
-    if (static_cast<int>(out.tried.size()) >= options.candidates) break;
-    const Place place = place_of(map, rig, group.best, options.verification.neighbours);
+  const auto compare = [&](KeyframeId id, double score) {
+    const Place place = place_of(map, rig, id, options.verification.neighbours);
     Verification verified = verify(place, query, rig, index.vocabulary(), options.verification);
     verified.pairs.clear();
     if (verified.accepted()) {
-      const SE3 pose = (verified.newer_from_older * map.find(group.best)->camera_from_world).normalized();
-      const Relocalized here{pose, verified.covariance, group.best, verified.inliers};
+      const SE3 pose = (verified.newer_from_older * map.find(id)->camera_from_world).normalized();
+      const Relocalized here{pose, verified.covariance, id, verified.inliers};
       if (out.found && !agree(*out.found, here)) contradiction = true;
       if (!out.found || here.inliers > out.found->inliers) out.found = here;
     }
-    out.tried.push_back({group.best, group.score, std::move(verified)});
+    out.tried.push_back({id, score, std::move(verified)});
+  };
+  for (const KeyframeId id : guesses)
+    if (map.find(id)) compare(id, 0);
+  if (!out.found) {
+    int candidates = 0;
+    for (const CandidateGroup& group : group_candidates(index.query(query, exclude), map))
+      if (candidates++ < options.candidates) compare(group.best, group.score);
   }
   if (contradiction) out.found.reset();
   return out;

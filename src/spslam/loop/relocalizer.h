@@ -39,9 +39,11 @@ struct RelocalizationAttempt {
 
 // Features with inverse depths if stereo gave them; without, the map's alone must do. Nothing if two places
 // that are accepted contradict each other. Keyframes in `exclude` are no candidates, as those of the submap
-// that was begun when the old one was lost.
+// that was begun when the old one was lost. Those in `guesses` are compared first, and alone if one of them
+// is the place.
 RelocalizationAttempt relocalize(const KeyframeFeatures& query, const Map& map, const StereoRig& rig,
                                  const KeyframeIndex& index, const RelocalizationOptions& options,
-                                 const std::set<KeyframeId>& exclude = {});
+                                 const std::set<KeyframeId>& exclude = {},
+                                 std::span<const KeyframeId> guesses = {});
 
 }  // namespace spslam

@@ -72,6 +72,9 @@ TrackerOutput Tracker::track(const StereoFrame& pair) {
       }
       result.keyframe_id = present.keyframe;
     }
+    if (describe_interval_ > 0 && result.frame.value % describe_interval_ == 0)
+      out.described = std::make_shared<const KeyframeFeatures>(
+          describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
   }
   finish_frame(out);
   timer.end(&StageTimes::keyframe);

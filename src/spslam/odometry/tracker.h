@@ -26,8 +26,9 @@ struct FramePose {
 
 struct TrackerOutput {
   TrackResult result;
-  std::vector<KeyframeProposal> proposals;  // keyframes that left the window
-  std::vector<FramePose> settled;           // frames that odometry will not change any more
+  std::vector<KeyframeProposal> proposals;            // keyframes that left the window
+  std::vector<FramePose> settled;                     // frames that odometry will not change any more
+  std::shared_ptr<const KeyframeFeatures> described;  // of this frame, if set_describe_interval() wants it
 };
 
 // Finds a frame in the map by what it looks like: camera_from_world, or nothing if it is not surely there.
@@ -50,6 +51,8 @@ class Tracker {
   // While the mapper is behind, keyframes are made only where points are lost or the motion becomes
   // uncertain.
   void set_mapper_busy(bool busy) { mapper_is_busy_ = busy; }
+  // Every so many frames the result tells what the frame looks like, for whoever compares it; 0: never.
+  void set_describe_interval(int frames) { describe_interval_ = frames; }
   // Empties the window, at the end of a run.
   TrackerOutput finish();
 
@@ -99,6 +102,7 @@ class Tracker {
   Relocalize relocalize_;
   bool must_localize_ = false;
   int relocalizations_ = 0;  // tried since the loss
+  int describe_interval_ = 0;
   int frames_since_keyframe_ = 0, tracked_before_ = 0;
   SE3 keyframe_pose_;                             // camera_from_world of the last keyframe when it was made
   std::vector<SeenByKeyframe> seen_by_keyframe_;  // ascending

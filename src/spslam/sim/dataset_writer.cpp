@@ -116,8 +116,9 @@ SimulationSummary simulate_dataset(const SimulationRequest& request, const Progr
     }
   }
   const BoatMotion& motion = simulator.motion();
-  writer.finish(records, simulate_imu(motion, request.scene.imu, until, request.seed),
-                simulate_gnss(motion, request.scene.gnss, until, request.seed));
+  const std::uint32_t seed = request.scene.passage_seed(request.seed);
+  writer.finish(records, simulate_imu(motion, request.scene.imu, until, seed),
+                simulate_gnss(motion, request.scene.gnss, until, seed));
   summary.length = motion.travelled(until);
   summary.duration = until;
   std::error_code code;

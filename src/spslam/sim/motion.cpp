@@ -72,10 +72,11 @@ BoatMotion::BoatMotion(const SceneDescription& scene, std::uint32_t seed)
       shake_y_({}),
       shake_z_({}) {
   const MotionOptions& m = scene.motion;
+  const std::uint32_t own = scene.passage_seed(seed);
   const double peak = 1 / m.wave_period;
   const auto hull = [&](double natural, double damping, std::uint32_t stream) {
     const auto power = [&](double f) { return jonswap(f, peak) * response(f, natural, damping); };
-    return make_process(0.45 * peak, 3.5 * peak, power, Random(seed * 977U + stream));
+    return make_process(0.45 * peak, 3.5 * peak, power, Random(own * 977U + stream));
   };
   roll_ = hull(m.roll_frequency, 0.15, 1);
   pitch_ = hull(m.pitch_frequency, 0.3, 2);
@@ -83,16 +84,16 @@ BoatMotion::BoatMotion(const SceneDescription& scene, std::uint32_t seed)
   // Yaw and sway follow slowly: the hull is steered, and has no spring in either.
   const auto steered = [&](std::uint32_t stream) {
     return make_process(
-        0.03, 0.6, [](double f) { return 1 / (1 + std::pow(f / 0.12, 2)); }, Random(seed * 977U + stream));
+        0.03, 0.6, [](double f) { return 1 / (1 + std::pow(f / 0.12, 2)); }, Random(own * 977U + stream));
   };
   yaw_ = steered(4);
   sway_ = steered(5);
   const auto engine = [&](std::uint32_t stream) {
     return make_process(
-        8, 25, [](double) { return 1.0; }, Random(seed * 977U + stream));
+        8, 25, [](double) { return 1.0; }, Random(own * 977U + stream));
   };
   shake_x_ = engine(6), shake_y_ = engine(7), shake_z_ = engine(8);
-  Random random(seed + 23);
+  Random random(own + 23);
   for (double& phase : phase_) phase = random.uniform(0, 2 * M_PI);
   const double limit = 20 * scene.path.length / scene.path.speed + 1000;
   for (double s = 0, t = 0; t < limit; t += kStep) {

@@ -16,7 +16,7 @@ World build_world(const SceneDescription& scene, const BoatMotion& motion, std::
   }
   build_bridges(world.fixed, channel_middle(scene, motion.way(), 0.5), scene);
   build_backdrop(world.fixed, shores, motion.way(), scene, seed);
-  world.boats = build_traffic(scene, motion, seed);
+  world.boats = build_traffic(scene, motion, scene.passage_seed(seed));
   return world;
 }
 

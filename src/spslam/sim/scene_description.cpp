@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "spslam/sim/hash.h"
 #include "spslam/sim/named_scenes.h"
 
 namespace spslam::sim {
@@ -141,6 +142,10 @@ StereoRig SceneDescription::stereo_rig() const {
   result.width = rig.width;
   result.height = rig.height;
   return result;
+}
+
+std::uint32_t SceneDescription::passage_seed(std::uint32_t seed) const {
+  return passage == 0 ? seed : mix(seed, static_cast<std::uint32_t>(passage));
 }
 
 }  // namespace spslam::sim

@@ -17,6 +17,7 @@ namespace spslam::sim {
 
 struct SceneDescription {
   std::string title = "a scene without a title";
+  int passage = 0;
   PathOptions path;
   ShoreOptions shore;
   BackdropOptions backdrop;
@@ -41,10 +42,16 @@ struct SceneDescription {
   // The calibration that is written: that of the ideal rig, whatever MisalignmentOptions does to the true
   // one.
   StereoRig stereo_rig() const;
+  // Of all that differs between two passages of the scene with that seed.
+  std::uint32_t passage_seed(std::uint32_t seed) const;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.title, {"title", "", "what the scene shows, one line"});
+    visit(self.passage, {"passage", "",
+                         "0, or another passage along the same way past the same shores, with waves, motion, "
+                         "boats and noise of its own",
+                         0, 1e6});
     visit.group("path", self.path);
     visit.group("shore", self.shore);
     visit.group("backdrop", self.backdrop);

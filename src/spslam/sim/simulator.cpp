@@ -40,9 +40,9 @@ EyeView right_view(const SceneDescription& scene, const SE3& world_from_left) {
 struct Simulator::Parts {
   Parts(const SceneDescription& description, std::uint32_t the_seed)
       : scene(checked(description)),
-        seed(the_seed),
-        motion(scene, seed),
-        tracer(scene, build_world(scene, motion, seed), motion.way(), seed),
+        seed(scene.passage_seed(the_seed)),
+        motion(scene, the_seed),
+        tracer(scene, build_world(scene, motion, the_seed), motion.way(), the_seed),
         exposure(scene.sensor) {}
 
   cv::Mat view_radiance(const EyeView& view, const EyeView& left, double time, std::uint32_t eye,
@@ -94,7 +94,7 @@ struct Simulator::Parts {
   }
 
   SceneDescription scene;
-  std::uint32_t seed;
+  std::uint32_t seed;  // of this passage
   BoatMotion motion;
   Tracer tracer;
   AutoExposure exposure;

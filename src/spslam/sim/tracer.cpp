@@ -43,7 +43,7 @@ Tracer::Tracer(const SceneDescription& scene, World world, const Way& way, std::
       fixed_(std::make_unique<RayScene>(device_.get(), std::move(world.fixed))),
       courses_(std::move(world.boats)),
       sky_(scene.sky, seed),
-      water_(scene.water, scene.rain, seed),
+      water_(scene.water, scene.rain, scene.passage_seed(seed)),
       materials_(seed, used_materials(fixed_->mesh(), courses_)) {
   const std::vector<Vector3f> viewers = viewers_on(way, static_cast<float>(scene.rig.above_water));
   bake_light(*fixed_, *fixed_, sky_, viewers, seed);

@@ -5,14 +5,39 @@
 
 #include <cmath>
 
+#include "spslam/system/localizer.h"
 #include "spslam/system/map_file.h"
 #include "spslam/system/stages.h"
 
 namespace spslam {
 
+namespace {
+
+// Of the odometry beside a fixed map: its loops are the map's, and so are the places it is found again at.
+SlamOptions session_options(SlamOptions options) {
+  options.loop.enabled = false;
+  options.tracker.state.relocalization_frames = 0;
+  return options;
+}
+
+std::vector<KeyframeInfo> keyframes_of(const Map& map) {
+  std::vector<KeyframeInfo> out;
+  for (const auto& [id, keyframe] : map.keyframes())
+    out.push_back({id, keyframe.frame, keyframe.timestamp, keyframe.camera_from_world.inverse(),
+                   static_cast<int>(keyframe.sightings.size())});
+  return out;
+}
+
+}  // namespace
+
 Slam::Slam(const StereoRig& rig, const SlamOptions& options, Map map) : rig_(rig) {
   check_options(options);
-  stages_ = std::make_unique<Stages>(rig, options, std::move(map));
+  if (!options.localization.enabled) {
+    stages_ = std::make_unique<Stages>(rig, options, std::move(map));
+    return;
+  }
+  localizer_ = std::make_unique<Localizer>(rig, options, std::move(map));
+  stages_ = std::make_unique<Stages>(rig, session_options(options), Map{});
 }
 
 Slam::~Slam() = default;
@@ -26,14 +51,17 @@ TrackResult Slam::track(const StereoFrame& pair) {
     return refused;
   }
   last_timestamp_ = pair.timestamp;
-  return stages_->track(pair);
+  const TrackerOutput output = stages_->track(pair);
+  return localizer_ ? localizer_->place(output) : output.result;
 }
 
 void Slam::finish() {
   stages_->finish();
+  if (localizer_) localizer_->finish();
 }
 
 std::vector<TrajectoryPose> Slam::trajectory() const {
+  if (localizer_) return localizer_->trajectory();
   return stages_->read([&](const Map& map) {
     std::vector<TrajectoryPose> out;
     for (const FramePose& frame : stages_->settled())
@@ -45,16 +73,12 @@ std::vector<TrajectoryPose> Slam::trajectory() const {
 }
 
 std::vector<KeyframeInfo> Slam::keyframes() const {
-  return stages_->read([](const Map& map) {
-    std::vector<KeyframeInfo> out;
-    for (const auto& [id, keyframe] : map.keyframes())
-      out.push_back({id, keyframe.frame, keyframe.timestamp, keyframe.camera_from_world.inverse(),
-                     static_cast<int>(keyframe.sightings.size())});
-    return out;
-  });
+  if (localizer_) return keyframes_of(localizer_->map());
+  return stages_->read(keyframes_of);
 }
 
 std::size_t Slam::landmark_count() const {
+  if (localizer_) return localizer_->map().landmarks().size();
   return stages_->read([](const Map& map) { return map.landmarks().size(); });
 }
 
@@ -67,6 +91,7 @@ std::vector<LoopAttempt> Slam::loops() const {
 }
 
 void Slam::save(const std::filesystem::path& path) const {
+  if (localizer_) return save_map(path, localizer_->map(), rig_);
   stages_->read([&](const Map& map) { save_map(path, map, rig_); });
 }
 

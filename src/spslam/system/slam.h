@@ -45,12 +45,15 @@ struct MappingInfo {
   std::size_t keyframes = 0, landmarks = 0;  // in the map afterwards
 };
 
+class Localizer;
 class Stages;
 
 class Slam {
  public:
   // Throws InputError for a rig, OptionError for options that are not usable. map: what is known already, as
   // load_map() gives it; then the first frame is looked for in it, and nothing is tracked until it is found.
+  // With options.localization.enabled the map stays as it is: what track() says is where in it the camera is
+  // (`lost` until that is known), and what odometry maps on the way is forgotten in the end.
   Slam(const StereoRig& rig, const SlamOptions& options = {}, Map map = {});
   ~Slam();
   Slam(const Slam&) = delete;
@@ -75,12 +78,14 @@ class Slam {
   std::vector<MappingInfo> mapping() const;
   // What was tried to recognize each of them, in order.
   std::vector<LoopAttempt> loops() const;
-  // Writes the map to a file (map_file.h); whole only after finish(). Throws OutputError.
+  // Writes the map to a file (map_file.h); whole only after finish(). Throws OutputError. While localizing it
+  // is the map that was given.
   void save(const std::filesystem::path& path) const;
 
  private:
   StereoRig rig_;
   std::optional<double> last_timestamp_;  // s
+  std::unique_ptr<Localizer> localizer_;  // null unless the map is fixed
   std::unique_ptr<Stages> stages_;
 };
 

@@ -8,6 +8,7 @@
 #include "spslam/loop/essential_graph.h"
 #include "spslam/loop/full_adjustment.h"
 #include "spslam/loop/fusion.h"
+#include "spslam/loop/localization.h"
 #include "spslam/loop/loop_closer.h"
 #include "spslam/loop/relocalizer.h"
 #include "spslam/mapping/local_mapper.h"
@@ -50,6 +51,7 @@ struct SlamOptions {
   TrackerOptions tracker;
   LocalMapperOptions mapper;
   LoopOptions loop;
+  LocalizationOptions localization;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -57,6 +59,7 @@ struct SlamOptions {
     visit.group("tracker", self.tracker);
     visit.group("mapper", self.mapper);
     visit.group("loop", self.loop);
+    visit.group("localization", self.localization);
   }
 };
 

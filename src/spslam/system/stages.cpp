@@ -28,6 +28,7 @@ Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map)
                           {known.landmarks().empty() ? 0 : known.landmarks().rbegin()->first.value + 1});
     for (const auto& [id, keyframe] : known.keyframes()) closer_.add(known, id);
   }
+  if (options.localization.enabled) tracker_.set_describe_interval(options.localization.interval);
   tracker_.set_relocalizer([this](const KeyframeFeatures& features) { return relocalize(features); });
   if (!is_parallel()) return;
   mapping_ = std::thread([this] {
@@ -39,7 +40,7 @@ Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map)
   });
 }
 
-TrackResult Stages::track(const StereoFrame& pair) {
+TrackerOutput Stages::track(const StereoFrame& pair) {
   LocalMapView view;
   {
     const std::scoped_lock lock(view_mutex_);
@@ -49,7 +50,7 @@ TrackResult Stages::track(const StereoFrame& pair) {
   tracker_.set_mapper_busy(!proposals_.empty());
   TrackerOutput output = tracker_.track(pair);
   take(output);
-  return output.result;
+  return output;
 }
 
 void Stages::take(TrackerOutput& output) {

@@ -22,8 +22,8 @@ class Stages {
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 
-  // Frames in order of time.
-  TrackResult track(const StereoFrame& pair);
+  // Frames in order of time. The output has no keyframes any more: they are on their way.
+  TrackerOutput track(const StereoFrame& pair);
   // Ends the input and works off what waits. Nothing may be tracked afterwards.
   void finish();
 

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// Where in a known map the camera is: a Kalman filter over its pose, moved on by odometry and measured by
+// places recognized (relocalizer.h). The error is a left perturbation of camera_from_world, so the covariance
+// is in the camera's own axes. (Sola, Deray, Atchuthan, "A micro Lie theory", 2018.)
+#pragma once
+
+#include <optional>
+
+#include "spslam/base/options.h"
+#include "spslam/base/se3.h"
+#include "spslam/map/map.h"
+
+namespace spslam {
+
+struct LocalizationOptions {
+  bool enabled = false;
+  int interval = 5;
+  int nearest = 2;
+  int confirmations = 2;
+  double drift = 0.02;
+  double turn_drift = 0.02;
+  double correlation = 10;
+  double map_sigma = 0.05;
+  double map_turn_sigma = 0.2;
+  double gate = 22.46;
+  double max_uncertainty = 1;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit(self.enabled, {"enabled", "", "stay in the map that is given and leave it as it is (--localize)"});
+    visit(self.interval, {"interval", "frames", "between two attempts to recognize a place", 1, 10000});
+    visit(self.nearest,
+          {"nearest", "", "keyframes tried because they are near where the camera should be", 0, 100});
+    visit(self.confirmations,
+          {"confirmations", "", "attempts that must agree by odometry before the camera counts as found", 1,
+           100});
+    visit(self.drift, {"drift", "m/m", "error of odometry over its way", 1e-4, 10});
+    visit(self.turn_drift, {"turn_drift", "deg/m", "of its rotation", 1e-4, 90});
+    visit(self.correlation, {"correlation", "m", "way over which it errs alike", 0.01, 1000});
+    visit(self.map_sigma,
+          {"map_sigma", "m", "error of the map's own that no number of looks averages out", 0, 10});
+    visit(self.map_turn_sigma, {"map_turn_sigma", "deg", "the same of its rotation", 0, 90});
+    visit(self.gate,
+          {"gate", "", "squared Mahalanobis distance of an attempt at most (6 degrees of freedom)", 1, 1000});
+    visit(self.max_uncertainty,
+          {"max_uncertainty", "m", "standard deviation of the position above which the camera counts as lost",
+           0.01, 1000});
+  }
+};
+
+// A pose in the map and its covariance, of a left perturbation of camera_from_world, (m, rad).
+struct MapPose {
+  SE3 camera_from_world;
+  Matrix6d covariance = Matrix6d::Identity();
+
+  double position_sigma() const { return std::sqrt(covariance.topLeftCorner<3, 3>().trace()); }
+};
+
+enum class FilterAnswer {
+  kPending,   // nothing is known yet, or it contradicts what is: it waits for others that agree
+  kUsed,      // it agrees and has corrected the estimate
+  kRestarted  // enough attempts agree with each other: the estimate is theirs
+};
+
+class LocalizationFilter {
+ public:
+  explicit LocalizationFilter(const LocalizationOptions& options) : options_(options) {}
+
+  // The camera has moved. `noise`: of the motion beyond the drift of odometry, as while it coasts.
+  void move(const SE3& present_from_before, const Matrix6d& noise = Matrix6d::Zero());
+  // A place was recognized; both are the camera's of now.
+  FilterAnswer add(const MapPose& measured);
+  // Odometry was broken off: nothing is known any more.
+  void forget() { estimate_.reset(), pending_.reset(), agreeing_ = 0; }
+
+  // What is known, the map's own error included; nothing until found, or once it is too uncertain.
+  std::optional<MapPose> estimate() const;
+
+ private:
+  bool agree(const MapPose& a, const MapPose& b) const;
+  Matrix6d map_covariance() const;
+  MapPose moved(const MapPose& pose, const SE3& motion, const Matrix6d& noise) const;
+
+  LocalizationOptions options_;
+  std::optional<MapPose> estimate_;
+  std::optional<MapPose> pending_;  // the last attempt that did not agree
+  int agreeing_ = 0;                // attempts in a row that agree with each other on it
+};
+
+// Covariance of odometry's error over a motion, of a left perturbation of it.
+Matrix6d drift_covariance(const SE3& motion, const LocalizationOptions& options);
+
+// Keyframes that look from about there in about that direction, nearest first, at most so many.
+std::vector<KeyframeId> nearest_keyframes(const Map& map, const SE3& camera_from_world, int count);
+
+}  // namespace spslam

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/system/localizer.h"
+
+#include "spslam/base/log.h"
+
+namespace spslam {
+namespace {
+
+constexpr double kLostVariance = 1e6;  // m^2 and rad^2: nothing is known
+
+}  // namespace
+
+Localizer::Localizer(const StereoRig& rig, const SlamOptions& options, Map map)
+    : rig_(rig),
+      options_(options),
+      map_(std::move(map)),
+      index_(built_in_vocabulary()),
+      filter_(options.localization) {
+  if (map_.keyframes().empty())
+    throw OptionError("localization.enabled: there is no map to localize in; give one (--load-map FILE)");
+  for (const auto& [id, keyframe] : map_.keyframes())
+    if (keyframe.features) index_.add(id, *keyframe.features);
+  if (options.threads == Threads::kSequential) return;
+  worker_ = std::thread([this] {
+    while (const auto request = requests_.pop()) {
+      const std::optional<Answer> answer = look(*request);
+      const std::scoped_lock lock(answers_mutex_);
+      if (answer) answers_.push_back(*answer);
+    }
+  });
+}
+
+void Localizer::finish() {
+  requests_.close();
+  if (worker_.joinable()) worker_.join();
+}
+
+TrackResult Localizer::place(const TrackerOutput& odometry) {
+  TrackResult result = odometry.result;
+  if (result.status == TrackStatus::kInitializing) return result;
+  const SE3 camera_from_session = result.world_from_camera.inverse();
+  if (!frames_.empty()) filter_.move(camera_from_session * frames_.back().camera_from_session.inverse());
+  if (result.status == TrackStatus::kLost) {
+    if (frames_.empty() || frames_.back().stretch == stretch_) ++stretch_;
+    filter_.forget();
+  }
+  frames_.push_back({result.frame, result.timestamp, result.status, camera_from_session, stretch_, {}});
+  if (odometry.described && result.status != TrackStatus::kLost) ask(odometry.described);
+  std::vector<Answer> answers;
+  {
+    const std::scoped_lock lock(answers_mutex_);
+    answers.swap(answers_);
+  }
+  for (const Answer& answer : answers) take(answer);
+
+  PlacedFrame& here = frames_.back();
+  if (const auto known = filter_.estimate(); known && result.status != TrackStatus::kLost) {
+    here.camera_from_world = known->camera_from_world;
+    result.world_from_camera = known->camera_from_world.inverse();
+    result.covariance += known->covariance;
+  } else {
+    here.status = result.status = TrackStatus::kLost;
+    if (result.reason.empty()) result.reason = "not recognized in the map";
+    result.covariance = kLostVariance * Matrix6d::Identity();
+  }
+  result.entropy = differential_entropy(result.covariance);
+  return result;
+}
+
+void Localizer::ask(std::shared_ptr<const KeyframeFeatures> features) {
+  Request request{frames_.size() - 1, std::move(features), {}};
+  if (const auto known = filter_.estimate()) request.expected = known->camera_from_world;
+  if (worker_.joinable()) {
+    if (requests_.empty()) requests_.push(std::move(request));  // else the last one still waits
+  } else if (const auto answer = look(request)) {
+    answers_.push_back(*answer);
+  }
+}
+
+// Reads what never changes, so it needs no lock.
+std::optional<Localizer::Answer> Localizer::look(const Request& request) const {
+  std::vector<KeyframeId> guesses;
+  if (request.expected) guesses = nearest_keyframes(map_, *request.expected, options_.localization.nearest);
+  const RelocalizationAttempt attempt =
+      relocalize(*request.features, map_, rig_, index_, options_.loop.relocalization, {}, guesses);
+  if (!attempt.found) return std::nullopt;
+  return Answer{request.index, {attempt.found->camera_from_world, attempt.found->covariance}};
+}
+
+// The answer is about a frame that may have passed: odometry since then moves it to the present.
+void Localizer::take(const Answer& answer) {
+  const PlacedFrame& then = frames_[answer.index];
+  const PlacedFrame& now = frames_.back();
+  if (then.stretch != now.stretch || now.status == TrackStatus::kLost) return;
+  const SE3 motion = now.camera_from_session * then.camera_from_session.inverse();
+  const Matrix6d adjoint = motion.adjoint();
+  const MapPose moved{(motion * answer.pose.camera_from_world).normalized(),
+                      adjoint * answer.pose.covariance * adjoint.transpose() +
+                          drift_covariance(motion, options_.localization)};
+  if (filter_.add(moved) != FilterAnswer::kRestarted) return;
+  spdlog::info("frame {}: found in the map, uncertainty {:.2f} m", now.frame.value, moved.position_sigma());
+  place_backwards();
+}
+
+// Frames of this stretch from before the camera was found.
+void Localizer::place_backwards() {
+  const std::optional<MapPose> known = filter_.estimate();
+  if (!known) return;
+  const SE3 session_from_world = frames_.back().camera_from_session.inverse() * known->camera_from_world;
+  for (auto it = frames_.rbegin(); it != frames_.rend() && it->stretch == stretch_; ++it) {
+    if (it->camera_from_world) break;
+    it->camera_from_world = it->camera_from_session * session_from_world;
+    it->status = TrackStatus::kTracking;
+  }
+}
+
+std::vector<TrajectoryPose> Localizer::trajectory() const {
+  std::vector<TrajectoryPose> out;
+  for (const PlacedFrame& frame : frames_)
+    if (frame.camera_from_world)
+      out.push_back({frame.frame, frame.timestamp, frame.status, frame.camera_from_world->inverse()});
+  return out;
+}
+
+}  // namespace spslam

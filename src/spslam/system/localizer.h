@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// Localization in a map that stays as it is (SPEC part 8). Odometry with its local mapping runs in a world of
+// its own, the session; every few frames a place of the map is recognized, and a filter (localization.h) says
+// where in the map the camera is. Nothing that odometry does can harm the map, and nothing in the map can
+// bend odometry.
+#pragma once
+
+#include <mutex>
+#include <thread>
+
+#include "spslam/odometry/tracker.h"
+#include "spslam/system/bounded_queue.h"
+#include "spslam/system/slam.h"
+
+namespace spslam {
+
+class Localizer {
+ public:
+  // Throws OptionError for a map without keyframes.
+  Localizer(const StereoRig& rig, const SlamOptions& options, Map map);
+  ~Localizer() { finish(); }
+  Localizer(const Localizer&) = delete;
+  Localizer& operator=(const Localizer&) = delete;
+
+  // What odometry says of a frame becomes what is known of it in the map. Frames in order. Its covariance is
+  // that of the pose in the map.
+  TrackResult place(const TrackerOutput& odometry);
+  void finish();
+
+  // Frames whose pose in the map is known; those before the camera was found too, by odometry backwards.
+  std::vector<TrajectoryPose> trajectory() const;
+  const Map& map() const { return map_; }
+
+ private:
+  struct PlacedFrame {
+    FrameId frame;
+    double timestamp = 0;
+    TrackStatus status = TrackStatus::kLost;
+    SE3 camera_from_session;
+    int stretch = 0;  // of unbroken odometry
+    std::optional<SE3> camera_from_world;
+  };
+  struct Request {
+    std::size_t index = 0;  // of the frame
+    std::shared_ptr<const KeyframeFeatures> features;
+    std::optional<SE3> expected;  // camera_from_world
+  };
+  struct Answer {
+    std::size_t index = 0;
+    MapPose pose;
+  };
+
+  void ask(std::shared_ptr<const KeyframeFeatures> features);
+  std::optional<Answer> look(const Request& request) const;
+  void take(const Answer& answer);
+  void place_backwards();
+
+  StereoRig rig_;
+  SlamOptions options_;
+  const Map map_;
+  KeyframeIndex index_;
+  LocalizationFilter filter_;
+  std::vector<PlacedFrame> frames_;
+  int stretch_ = 0;
+  BoundedQueue<Request> requests_{1};
+  std::mutex answers_mutex_;  // guards the answers
+  std::vector<Answer> answers_;
+  std::thread worker_;  // last: it uses all of the above
+};
+
+}  // namespace spslam

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// Localization in a map that stays as it is.
+
+#include <gmock/gmock.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "spslam/system/map_encoding.h"
+#include "spslam/system/map_file.h"
+#include "system/scene_run.h"
+
+namespace spslam {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+StereoFrame at_time(StereoFrame pair, double timestamp) {
+  pair.timestamp = timestamp;
+  return pair;
+}
+
+StereoFrame mirrored(const StereoFrame& pair, double timestamp) {
+  StereoFrame out;
+  out.timestamp = timestamp;
+  cv::flip(pair.right, out.left, 1);
+  cv::flip(pair.left, out.right, 1);
+  return out;
+}
+
+const Map& known_map() {
+  static const Map map = [] {
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / "spslam_localizer_test.map";
+    Slam slam(scene_rig(), sequential_options());
+    for (const StereoFrame& pair : scene_pairs()) slam.track(pair);
+    slam.finish();
+    slam.save(path);
+    Map loaded = load_map(path).map;
+    std::filesystem::remove(path);
+    return loaded;
+  }();
+  return map;
+}
+
+SlamOptions localizing(Threads threads = Threads::kSequential) {
+  SlamOptions options = sequential_options();
+  options.threads = threads;
+  options.localization.enabled = true;
+  options.localization.interval = 2;
+  return options;
+}
+
+double distance_from_truth(const SE3& world_from_camera, int index) {
+  return (world_from_camera.translation - scene_pose(index).translation).norm();
+}
+
+TEST(Localizer, SaysWhereInTheMapTheCameraIs) {
+  Slam slam(scene_rig(), localizing(), known_map());
+  constexpr int kFirst = 5;
+  bool found = false;
+  for (int i = kFirst; i < kSceneFrames; ++i) {
+    const TrackResult result = slam.track(at_time(scene_pairs()[static_cast<std::size_t>(i)], 100 + 0.1 * i));
+    if (result.status != TrackStatus::kTracking) {
+      EXPECT_FALSE(found) << i;
+      EXPECT_GT(result.covariance(0, 0), 1e3);
+      EXPECT_EQ(result.reason, "not recognized in the map");
+      continue;
+    }
+    found = true;
+    EXPECT_LT(distance_from_truth(result.world_from_camera, i), 0.05) << i;
+    EXPECT_LT(std::sqrt(result.covariance.topLeftCorner<3, 3>().trace()), 0.3);
+  }
+  slam.finish();
+  EXPECT_TRUE(found);
+  // The frames before it was found are placed too, backwards.
+  const std::vector<TrajectoryPose> trajectory = slam.trajectory();
+  ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kSceneFrames - kFirst));
+  for (const TrajectoryPose& pose : trajectory)
+    EXPECT_LT(distance_from_truth(pose.world_from_camera, kFirst + static_cast<int>(pose.frame.value)), 0.05);
+}
+
+TEST(Localizer, TheMapStaysAsItIs) {
+  Slam slam(scene_rig(), localizing(), known_map());
+  for (int i = 5; i < kSceneFrames; ++i)
+    slam.track(at_time(scene_pairs()[static_cast<std::size_t>(i)], 100 + 0.1 * i));
+  slam.finish();
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "spslam_localizer_after.map";
+  slam.save(path);
+  const Map after = load_map(path).map;
+  std::filesystem::remove(path);
+  EXPECT_EQ(encode_map(after, scene_rig()), encode_map(known_map(), scene_rig()));
+}
+
+// A wrong pose would be worse than none.
+TEST(Localizer, AnotherPlaceIsLost) {
+  Slam slam(scene_rig(), localizing(), known_map());
+  for (int i = 0; i < kSceneFrames; ++i) {
+    const TrackResult result =
+        slam.track(mirrored(scene_pairs()[static_cast<std::size_t>(i)], 100 + 0.1 * i));
+    EXPECT_NE(result.status, TrackStatus::kTracking);
+    if (result.status == TrackStatus::kLost) {
+      EXPECT_GT(result.covariance(0, 0), 1e3);
+    }
+  }
+  slam.finish();
+  EXPECT_TRUE(slam.trajectory().empty());
+}
+
+TEST(Localizer, IsFoundAgainAfterALoss) {
+  Slam slam(scene_rig(), localizing(), known_map());
+  double time = 100;
+  for (int i = 0; i < kSceneFrames; ++i)
+    slam.track(at_time(scene_pairs()[static_cast<std::size_t>(i)], time += 0.1));
+  StereoFrame black;
+  black.problem = "black";
+  TrackResult result;
+  for (int i = 0; i < 30; ++i) result = slam.track(at_time(black, time += 0.1));
+  ASSERT_EQ(result.status, TrackStatus::kLost);
+  // Somewhere else than where its velocity led.
+  int tries = 0;
+  for (; tries < 10 && result.status != TrackStatus::kTracking; ++tries)
+    result = slam.track(at_time(scene_pairs()[static_cast<std::size_t>(2 + tries)], time += 0.1));
+  EXPECT_EQ(result.status, TrackStatus::kTracking) << result.reason;
+  EXPECT_LT(distance_from_truth(result.world_from_camera, 1 + tries), 0.05);
+}
+
+TEST(Localizer, ThreadsFindItToo) {
+  Slam slam(scene_rig(), localizing(Threads::kParallel), known_map());
+  double time = 100;
+  TrackResult result;
+  // Forth and back until the other thread has answered often enough.
+  for (int i = 0; i < 40 * kSceneFrames && result.status != TrackStatus::kTracking; ++i) {
+    const int round = i % (2 * kSceneFrames - 2);
+    const int frame = round < kSceneFrames ? round : 2 * kSceneFrames - 2 - round;
+    result = slam.track(at_time(scene_pairs()[static_cast<std::size_t>(frame)], time += 0.1));
+    if (result.status == TrackStatus::kTracking) {
+      EXPECT_LT(distance_from_truth(result.world_from_camera, frame), 0.1);
+    }
+  }
+  slam.finish();
+  EXPECT_EQ(result.status, TrackStatus::kTracking);
+}
+
+TEST(Localizer, NeedsAMap) {
+  EXPECT_THROW(Slam(scene_rig(), localizing(), Map{}), OptionError);
+}
+
+}  // namespace
+}  // namespace spslam
