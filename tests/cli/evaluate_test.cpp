@@ -55,19 +55,21 @@ TEST(Evaluate, JsonParses) {
   EXPECT_EQ(json["rpe_m_per_s"]["count"], 91);
 }
 
-// The estimate is in the world of a map that begins where another run began.
-TEST(Evaluate, OriginAndShareWithin) {
+// The estimate is in the world of a map that another run began somewhere else.
+TEST(Evaluate, OriginsAndShareWithin) {
   const ScratchFolder files;
   std::string estimate, truth;
   for (int i = 0; i < 10; ++i) {
     const double error = i < 7 ? 0.1 : 0.5;
-    estimate += std::to_string(0.1 * i) + " " + std::to_string(i + error) + " 0 0 0 0 0 1\n";
-    truth += std::to_string(0.1 * i) + " 5 " + std::to_string(i) + " 0 0 0 0.7071067811865 0.7071067811865\n";
+    estimate += std::to_string(0.1 * i) + " " + std::to_string(3 + i + error) + " 0 0 0 0 0 1\n";
+    truth += std::to_string(0.1 * i) + " " + std::to_string(i) + " 0 0 0 0 0 1\n";
   }
-  const std::string origin = "0 5 0 0 0 0 0.7071067811865 0.7071067811865\n1 9 9 9 0 0 0 1\n";
-  const ProcessResult result =
-      run_spslam({"evaluate", files.write("e.txt", estimate), files.write("t.txt", truth), "--origin",
-                  files.write("o.txt", origin), "--align", "none", "--within", "0.3", "--json"});
+  // Both worlds turned by 90 degrees, that of the truth 3 m ahead of that of the estimate.
+  const std::string map = files.write("map.txt", "0 -1 0 5 1 0 0 0 0 0 1 0\n");
+  const std::string run = files.write("run.txt", "0 -1 0 5 1 0 0 3 0 0 1 0\n");
+  const ProcessResult result = run_spslam(
+      {"evaluate", files.write("e.txt", estimate), files.write("t.txt", truth), "--origin-estimate", map,
+       "--origin-truth", run, "--align", "none", "--within", "0.3", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_NEAR(json["share_within"].get<double>(), 0.7, 1e-9);

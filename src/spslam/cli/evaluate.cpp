@@ -8,6 +8,7 @@
 #include "spslam/cli/commands.h"
 #include "spslam/eval/evaluation.h"
 #include "spslam/eval/trajectory_pair.h"
+#include "spslam/io/text.h"
 
 namespace spslam {
 namespace {
@@ -15,19 +16,24 @@ namespace {
 struct EvaluateArguments {
   TrajectoryPairFiles files;
   EvaluationOptions options;
-  std::string origin;
+  std::string origin_estimate, origin_truth;
   bool kitti = false;
   bool json = false;
 };
 
+// Of a file of poses; the identity without a file.
+SE3 first_pose(const std::string& file) {
+  if (file.empty()) return {};
+  const Trajectory poses = parse_kitti_poses(read_text_file(file), file);
+  if (poses.empty()) throw InputError(file + " has no pose, so it says nothing of an origin");
+  return poses.front().world_from_camera;
+}
+
 int evaluate_files(const EvaluateArguments& arguments) {
   TrajectoryPair pair = read_trajectory_pair(arguments.files);
-  if (!arguments.origin.empty()) {
-    const Trajectory origin = read_trajectory(arguments.origin, {arguments.files.truth_format, {}, {}});
-    if (origin.empty()) throw InputError(arguments.origin + " has no pose, so it says nothing of the origin");
-    for (StampedPose& pose : pair.truth)
-      pose.world_from_camera = origin.front().world_from_camera.inverse() * pose.world_from_camera;
-  }
+  const SE3 estimate_from_truth =
+      first_pose(arguments.origin_estimate).inverse() * first_pose(arguments.origin_truth);
+  for (StampedPose& pose : pair.truth) pose.world_from_camera = estimate_from_truth * pose.world_from_camera;
   EvaluationOptions options = arguments.options;
   options.association.by_index = pair.by_index;
   const Evaluation evaluation = evaluate(pair.estimate, pair.truth, options);
@@ -93,9 +99,11 @@ void add_evaluate(CLI::App& app, Command& chosen) {
   add_metric_options(*command, arguments->options);
   command
       ->add_option(
-          "--origin", arguments->origin,
-          "Trajectory whose first pose is the world of the estimate, in the world of the truth: that of "
-          "the run that made the map. Goes with --align none")
+          "--origin-estimate", arguments->origin_estimate,
+          "File of a pose (12 numbers, as in KITTI's): where the estimate's world lies in a world common "
+          "to both, for --align none; a simulated run's world_from_first_camera.txt")
+      ->type_name("FILE");
+  command->add_option("--origin-truth", arguments->origin_truth, "The same for the truth's world")
       ->type_name("FILE");
   command->add_flag("--kitti", arguments->kitti, "The KITTI metric of each length too");
   command->add_flag("--json", arguments->json, "Print one JSON object instead of text");
