@@ -111,5 +111,40 @@ TEST(Relocalization, WithoutAnyKnownPlaceTrackingBeginsAnew) {
   EXPECT_THAT(result.reason, testing::HasSubstr("begun anew"));
 }
 
+// What was mapped after the loss is in the wrong place until a loop joins it to the map from before, however
+// far that is from where dead reckoning put it.
+TEST(Relocalization, ASubmapIsJoinedByALoop) {
+  SlamOptions options = sequential_options();
+  options.tracker.state.relocalization_frames = 0;
+  options.tracker.keyframe.max_frames = 2;
+  options.loop.detection.max_drift = options.loop.detection.max_drift_floor = 0.001;
+  Slam slam(scene_rig(), options);
+  double time = 0;
+  for (const StereoFrame& pair : scene_pairs()) slam.track(at_time(pair, time += 0.1));
+  StereoFrame black;
+  black.problem = "black";
+  for (int i = 0; i < 30; ++i) slam.track(at_time(black, time += 0.1));
+  TrackResult result;
+  std::vector<int> shown;
+  for (int i = 0; i < 2 * kSceneFrames; ++i) {
+    shown.push_back(i < kSceneFrames ? i : 2 * kSceneFrames - 1 - i);
+    result = slam.track(at_time(scene_pairs()[static_cast<std::size_t>(shown.back())], time += 0.1));
+    if (i == 0) {
+      EXPECT_THAT(result.reason, testing::HasSubstr("begun anew"));
+      EXPECT_GT(distance_from_truth(result, 0), 0.5) << "too near for this test";
+    }
+  }
+  slam.finish();
+  int closed = 0;
+  for (const LoopAttempt& attempt : slam.loops()) closed += attempt.closure.has_value();
+  EXPECT_GT(closed, 0);
+  const std::vector<TrajectoryPose> trajectory = slam.trajectory();
+  ASSERT_GE(trajectory.size(), shown.size());
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const SE3& pose = trajectory[trajectory.size() - shown.size() + i].world_from_camera;
+    EXPECT_LT((pose.translation - scene_pose(shown[i]).translation).norm(), 0.1) << i;
+  }
+}
+
 }  // namespace
 }  // namespace spslam

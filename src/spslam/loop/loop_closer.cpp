@@ -4,11 +4,13 @@
 #include "spslam/loop/loop_closer.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace spslam {
 namespace {
 
 constexpr int kCloseNeighbour = 15;  // landmarks shared by keyframes that must look alike
+constexpr int kConnected = 15;       // landmarks shared without which submaps stay apart
 constexpr int kConfirmersTried = 3;  // for each confirmation wanted
 constexpr double kAgreementSigmas = 4;
 constexpr double kAgreementFloor = 0.1;  // m; poses of neighbours are not exact either
@@ -18,8 +20,7 @@ double degrees(const SE3& motion) {
   return so3_log(motion.rotation).norm() * 180 / M_PI;
 }
 
-// Length of the way from one keyframe to another, by the keyframes between. Not finite if it leads over a
-// gap that nothing connects.
+// Length of the way from one keyframe to another, by the keyframes between.
 double way_between(const Map& map, KeyframeId from, KeyframeId to) {
   double length = 0;
   const Keyframe* before = map.find(from);
@@ -54,7 +55,37 @@ LoopCloser::LoopCloser(const StereoRig& rig, const DetectionOptions& detection,
 
 void LoopCloser::add(const Map& map, KeyframeId id) {
   const Keyframe* keyframe = map.find(id);
-  if (keyframe && keyframe->features) index_.add(id, *keyframe->features);
+  if (!keyframe) return;
+  connect(map, id);
+  if (keyframe->features) index_.add(id, *keyframe->features);
+}
+
+// A keyframe that shares nothing with any older one begins a submap. To join two, a few landmarks that were
+// perhaps found again by mistake are not enough.
+void LoopCloser::connect(const Map& map, KeyframeId id) {
+  if (submaps_.contains(id)) return;
+  for (const Covisible& other : map.covisible(id)) {
+    if (!submaps_.contains(other.id)) continue;
+    if (!submaps_.contains(id))
+      submaps_[id] = submap_of(other.id);
+    else if (other.shared >= kConnected)
+      join(id, other.id);
+  }
+  if (!submaps_.contains(id)) submaps_[id] = submaps_begun_++;
+  for (const LoopEdge& loop : map.loops())
+    if (loop.newer == id || loop.older == id) join(loop.newer, loop.older);
+}
+
+void LoopCloser::join(KeyframeId a, KeyframeId b) {
+  const int kept = std::min(submap_of(a), submap_of(b)), gone = std::max(submap_of(a), submap_of(b));
+  if (kept < 0 || kept == gone) return;
+  for (auto& [id, submap] : submaps_)
+    if (submap == gone) submap = kept;
+}
+
+int LoopCloser::submap_of(KeyframeId id) const {
+  const auto it = submaps_.find(id);
+  return it == submaps_.end() ? -1 : it->second;
 }
 
 LoopAttempt LoopCloser::detect(const Map& map, KeyframeId newest) {
@@ -65,6 +96,7 @@ LoopAttempt LoopCloser::detect(const Map& map, KeyframeId newest) {
     trails_.clear();
     return attempt;
   }
+  connect(map, newest);
   std::vector<LoopCandidate> candidates = find_candidates(map, *keyframe, attempt);
   add(map, newest);
   const bool pausing = last_closed_.valid() && newest.value - last_closed_.value <= options_.pause;
@@ -76,6 +108,7 @@ LoopAttempt LoopCloser::detect(const Map& map, KeyframeId newest) {
   }
   if (attempt.closure) {
     last_closed_ = newest;
+    join(newest, attempt.closure->edge.older);
     trails_.clear();
   }
   return attempt;
@@ -88,7 +121,7 @@ std::set<KeyframeId> LoopCloser::excluded(const Map& map, KeyframeId newest) con
   int young = 0;
   for (auto it = map.keyframes().rbegin(); it != map.keyframes().rend() && young < options_.min_gap;
        ++it, ++young)
-    out.insert(it->first);
+    if (connected(it->first, newest)) out.insert(it->first);
   return out;
 }
 
@@ -156,7 +189,9 @@ bool LoopCloser::is_plausible(const Map& map, const Keyframe& keyframe, LoopCand
       (candidate.verification.newer_from_older.inverse().translation - by_odometry.inverse().translation)
           .norm();
   candidate.turn_gap = degrees(gap);
-  candidate.way = way_between(map, candidate.keyframe, keyframe.id);
+  candidate.way = connected(candidate.keyframe, keyframe.id)
+                      ? way_between(map, candidate.keyframe, keyframe.id)
+                      : std::numeric_limits<double>::infinity();
   return candidate.gap <= options_.max_drift_floor + options_.max_drift * candidate.way &&
          candidate.turn_gap <= options_.max_turn_drift_floor + options_.max_turn_drift * candidate.way;
 }

@@ -67,9 +67,10 @@ struct LoopCandidate {
   double score = 0;     // of the group
   int consistency = 0;  // keyframes before with a candidate of the same group, in a row
   LoopStage stage = LoopStage::kInconsistent;
-  Verification verification;              // without pairs
-  double gap = 0, turn_gap = 0, way = 0;  // m, deg: what closing would move by; m: the length of the way
-  int confirmed = 0;                      // by keyframes before
+  Verification verification;     // without pairs
+  double gap = 0, turn_gap = 0;  // m, deg: what closing would move by
+  double way = 0;                // m: the length of the way; infinite from a submap to another
+  int confirmed = 0;             // by keyframes before
 };
 
 struct LoopAttempt {
@@ -91,6 +92,9 @@ class LoopCloser {
   // Only adds it, as for the keyframes of a map that was loaded.
   void add(const Map& map, KeyframeId id);
   void erase(KeyframeId id) { index_.erase(id); }
+  // Whether landmarks or loops connect the two. After a loss tracking may have begun anew where dead
+  // reckoning led: a submap, which may be anywhere until a loop joins it to the others.
+  bool connected(KeyframeId a, KeyframeId b) const { return submap_of(a) == submap_of(b); }
   const KeyframeIndex& index() const { return index_; }
 
  private:
@@ -99,6 +103,9 @@ class LoopCloser {
     int length = 0;
   };
 
+  void connect(const Map& map, KeyframeId id);
+  void join(KeyframeId a, KeyframeId b);
+  int submap_of(KeyframeId id) const;
   std::set<KeyframeId> excluded(const Map& map, KeyframeId newest) const;
   double least_score(const Map& map, const Keyframe& keyframe, const WordVector& words) const;
   std::vector<LoopCandidate> find_candidates(const Map& map, const Keyframe& keyframe, LoopAttempt& attempt);
@@ -114,6 +121,8 @@ class LoopCloser {
   KeyframeIndex index_;
   std::vector<Trail> trails_;
   KeyframeId last_closed_;
+  std::map<KeyframeId, int> submaps_;  // of each keyframe ever added, erased ones too
+  int submaps_begun_ = 0;
 };
 
 }  // namespace spslam
