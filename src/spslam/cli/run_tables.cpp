@@ -153,17 +153,20 @@ std::string loops_csv(const RunRecord& record) {
   std::string text =
       "keyframe,older,score,stage,verification,matches,consensus,inliers,translation_sigma,rotation_sigma,"
       "scale,"
-      "gap,turn_gap,way,closed\n";
+      "gap,turn_gap,way,closed,timestamp,older_timestamp,x,y,z\n";
   for (const LoopAttempt& attempt : record.loops)
     for (const LoopCandidate& c : attempt.candidates) {
       const Verification& v = c.verification;
       const bool closed = attempt.closure && attempt.closure->edge.older == c.keyframe;
-      text += fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", attempt.keyframe.value, c.keyframe.value,
-          csv_number(c.score, 4), option_names(c.stage)[static_cast<std::size_t>(c.stage)],
-          option_names(v.stage)[static_cast<std::size_t>(v.stage)], v.matches, v.consensus, v.inliers,
-          csv_number(v.translation_sigma, 4), csv_number(v.rotation_sigma, 4), csv_number(v.scale, 4),
-          csv_number(c.gap, 3), csv_number(c.turn_gap, 3), csv_number(c.way, 2), closed ? 1 : 0);
+      const Eigen::Vector3d at = v.newer_from_older.inverse().translation;
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.9f},{:.9f},{:.4f},{:.4f},{:.4f}\n",
+                          attempt.keyframe.value, c.keyframe.value, csv_number(c.score, 4),
+                          option_names(c.stage)[static_cast<std::size_t>(c.stage)],
+                          option_names(v.stage)[static_cast<std::size_t>(v.stage)], v.matches, v.consensus,
+                          v.inliers, csv_number(v.translation_sigma, 4), csv_number(v.rotation_sigma, 4),
+                          csv_number(v.scale, 4), csv_number(c.gap, 3), csv_number(c.turn_gap, 3),
+                          csv_number(c.way, 2), closed ? 1 : 0, attempt.timestamp, c.timestamp, at.x(),
+                          at.y(), at.z());
     }
   return text;
 }

@@ -96,6 +96,7 @@ LoopAttempt LoopCloser::detect(const Map& map, KeyframeId newest) {
     trails_.clear();
     return attempt;
   }
+  attempt.timestamp = keyframe->timestamp;
   connect(map, newest);
   std::vector<LoopCandidate> candidates = find_candidates(map, *keyframe, attempt);
   add(map, newest);
@@ -153,7 +154,8 @@ std::vector<LoopCandidate> LoopCloser::find_candidates(const Map& map, const Key
       if (same) trail.length = std::max(trail.length, before.length + 1);
     }
     LoopCandidate candidate;
-    candidate.keyframe = group.best, candidate.score = group.score, candidate.consistency = trail.length;
+    candidate.keyframe = group.best, candidate.timestamp = map.find(group.best)->timestamp;
+    candidate.score = group.score, candidate.consistency = trail.length;
     out.push_back(std::move(candidate));
     trails.push_back(std::move(trail));
   }

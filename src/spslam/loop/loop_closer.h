@@ -64,8 +64,9 @@ inline std::span<const char* const> option_names(LoopStage) {
 
 struct LoopCandidate {
   KeyframeId keyframe;
-  double score = 0;     // of the group
-  int consistency = 0;  // keyframes before with a candidate of the same group, in a row
+  double timestamp = 0;  // s; its
+  double score = 0;      // of the group
+  int consistency = 0;   // keyframes before with a candidate of the same group, in a row
   LoopStage stage = LoopStage::kInconsistent;
   Verification verification;     // without pairs
   double gap = 0, turn_gap = 0;  // m, deg: what closing would move by
@@ -74,7 +75,8 @@ struct LoopCandidate {
 };
 
 struct LoopAttempt {
-  KeyframeId keyframe;  // the newest
+  KeyframeId keyframe;   // the newest
+  double timestamp = 0;  // s; its
   double least_score = 0;
   std::vector<LoopCandidate> candidates;  // in the order they were tried; ends with the accepted one
   std::optional<LoopClosure> closure;

@@ -53,6 +53,11 @@ void Tracker::make_keyframe(const Frame& frame, WindowFrame& present) {
     present.sightings.push_back(fresh.sighting);
     map_.landmarks.push_back({fresh.landmark, fresh.landmark.inverse_depth, 0, 0});
   }
+  // Landmarks that the mapper made have ids beyond the tracker's own.
+  std::sort(map_.landmarks.begin(), map_.landmarks.end(),
+            [](const ActiveLandmark& a, const ActiveLandmark& b) { return a.landmark.id < b.landmark.id; });
+  std::sort(present.sightings.begin(), present.sightings.end(),
+            [](const Sighting& a, const Sighting& b) { return a.landmark < b.landmark; });
   frames_since_keyframe_ = 0;
   keyframe_pose_ = present.camera_from_world;
   seen_by_keyframe_.clear();

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+# SPDX-License-Identifier: Apache-2.0
+# Maps a simulated scene, then localizes another passage in that map, with other waves, other motion and other light, and prints, in Markdown: the map's
+# ATE RMSE, and of the passage the share of all frames placed within 0.3 m of the truth, RMSE and maximum of those that were placed. Nothing
+# is aligned. A last column looks for the passage in the map of the next scene of the list, where no frame may be placed.
+#   scripts/localization.sh
+# From the environment:
+#   SCENES   their names; all eight unless given
+#   SEED     of the scenes (1)
+#   FRAMES   pairs of each run (150)
+#   LIGHT    what differs in the other passage, as `key=value` of the scene
+#   OUTPUT   folder for the data and the runs (out/localization); data that are there already are used again
+#   SPSLAM   the program (build/release/bin/spslam)
+set -euo pipefail
+cd "$(dirname "$(realpath "$0")")/.."
+read -r -a scenes <<<"${SCENES:-bank bridge_turn canal fog_traffic glare lake_loop open_water rain}"
+read -r -a light <<<"${LIGHT:-passage=1 sky.sun_azimuth=200 sky.sun_elevation=55 sky.sun=0.5 motion.wave_height=0.2}"
+seed=${SEED:-1}
+frames=${FRAMES:-150}
+output=${OUTPUT:-out/localization}
+program=${SPSLAM:-build/release/bin/spslam}
+[ -x "$program" ] || { echo "there is no $program; scripts/build.sh release --target spslam_cli makes it" >&2; exit 1; }
+
+simulate() {  # SCENE FOLDER [--set KEY=VALUE ...]
+  local scene=$1 folder=$2
+  shift 2
+  [ -f "$folder/poses.txt" ] ||
+    "$program" simulate "$scene" --seed "$seed" --frames "$frames" --output "$folder" --overwrite "$@" >&2
+}
+
+# "share rmse max" of what a run says, in the world of the map.
+errors() {  # RUN MAP_DATA DATA
+  "$program" evaluate "$1/trajectory_tum.txt" "$3/poses.txt" --align none --within 0.3 --json \
+    --origin-estimate "$2/world_from_first_camera.txt" --origin-truth "$3/world_from_first_camera.txt" 2>/dev/null |
+    awk '{ value = $2; sub(/,$/, "", value) }
+         /"share_within"/ { share = value }
+         /"ate_m"/ { inside = 1 }
+         inside && /"max"/ { most = value }
+         inside && /"rmse"/ { rmse = value; inside = 0 }
+         END { if (rmse == "") print "0 - -"; else printf "%.1f %.3f %.3f\n", 100 * share, rmse, most }'
+}
+
+mkdir -p "$output"
+for scene in "${scenes[@]}"; do
+  data=$output/$scene
+  simulate "$scene" "$data"
+  simulate "$scene" "$data.other" "${light[@]/#/--set=}"
+  "$program" run "$data" --sequential --quiet --samples 0 --output "$data.run" --overwrite --save-map "$data.map"
+done
+echo '| scene | map: RMSE m | frames within 0.3 m, % | RMSE m | max m | frames placed in the wrong map |'
+echo '|---|---|---|---|---|---|'
+for i in "${!scenes[@]}"; do
+  data=$output/${scenes[i]} wrong=$output/${scenes[(i + 1) % ${#scenes[@]}]}
+  "$program" run "$data.other" --sequential --quiet --samples 0 --output "$data.found" --overwrite --load-map "$data.map" --localize
+  placed=-
+  if [ "$data" != "$wrong" ]; then
+    "$program" run "$data.other" --sequential --quiet --samples 0 --output "$data.lost" --overwrite --load-map "$wrong.map" --localize
+    placed=$(grep -c -v '^#' "$data.lost/trajectory_tum.txt" || true)
+  fi
+  read -r _ map_rmse _ <<<"$(errors "$data.run" "$data" "$data")"
+  read -r share rmse most <<<"$(errors "$data.found" "$data" "$data.other")"
+  echo "| ${scenes[i]} | $map_rmse | $share | $rmse | $most | $placed |"
+done
