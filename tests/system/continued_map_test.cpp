@@ -92,6 +92,32 @@ TEST(Relocalization, ALostCameraIsFoundWhereItIsAndNotWhereItsVelocityLed) {
   EXPECT_LT(distance_from_truth(result, kPlace), 0.05);
 }
 
+// Frames that could not be seen lie between the last one before and the first one after.
+TEST(Relocalization, FramesOfTheGapAreCorrectedOnceItIsClosed) {
+  Slam slam(scene_rig(), sequential_options());
+  std::vector<StereoFrame> pairs = scene_pairs();
+  StereoFrame black;
+  black.problem = "black";
+  double time = 0;
+  for (const StereoFrame& pair : pairs) slam.track(at_time(pair, time += 0.1));
+  // Forward at the last velocity, says dead reckoning; but the boat is where it was six frames ago.
+  constexpr int kGap = 30, kBack = kSceneFrames - 7;
+  for (int i = 0; i < kGap; ++i) slam.track(at_time(black, time += 0.1));
+  for (int i = 0; i < 4; ++i) slam.track(at_time(pairs[static_cast<std::size_t>(kBack + i)], time += 0.1));
+  slam.finish();
+  const std::vector<TrajectoryPose> trajectory = slam.trajectory();
+  ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kSceneFrames + kGap + 4));
+  const Eigen::Vector3d from = scene_pose(kSceneFrames - 1).translation, to = scene_pose(kBack).translation;
+  const double way = (to - from).norm();
+  for (int i = 0; i < kGap; ++i) {
+    const TrajectoryPose& pose = trajectory[static_cast<std::size_t>(kSceneFrames + i)];
+    EXPECT_NE(pose.status, TrackStatus::kTracking);
+    const Eigen::Vector3d at = pose.world_from_camera.translation;
+    EXPECT_LT((at - from).norm() + (at - to).norm(), 3 * way + 0.1) << i;
+  }
+  EXPECT_LT((trajectory[kSceneFrames + kGap - 1].world_from_camera.translation - to).norm(), 0.1);
+}
+
 TEST(Relocalization, WithoutAnyKnownPlaceTrackingBeginsAnew) {
   SlamOptions options = sequential_options();
   options.tracker.state.relocalization_frames = 2;

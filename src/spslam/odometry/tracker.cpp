@@ -58,7 +58,7 @@ TrackerOutput Tracker::track(const StereoFrame& pair) {
   } else {
     const Frame frame = front_end_.process(pair, result.frame);  // 3.1.1, 3.1.2
     timer.end(&StageTimes::front_end);
-    // A window that ended with a loss is no beginning for another.
+    // A window that ended with a loss is no beginning for another, and the map should know of it.
     if (status_ == TrackStatus::kLost) settle(0, out);
     if (status_ == TrackStatus::kInitializing || status_ == TrackStatus::kLost)
       begin(frame, result);
@@ -94,6 +94,7 @@ bool Tracker::measure_pose(const Frame& frame, TrackResult& result, StageTimer& 
   motion_covariance_ = motion.covariance;
   map_.window.push_back({frame.id, frame.timestamp, motion.camera_from_world, {}, std::move(sightings)});
   if (options_.window_frames > 1) refine_window(map_, options_.window);
+  close_gap(frame.timestamp, map_.window.back().camera_from_world);
   motion_.add(frame.timestamp, map_.window.back().camera_from_world);
   status_ = TrackStatus::kTracking;
   if (options_.rig.estimate && ++frames_since_rig_check_ >= options_.window_frames &&
@@ -195,6 +196,7 @@ void Tracker::begin(const Frame& frame, TrackResult& result) {
     return;
   }
   map_.window.push_back(std::move(present));
+  close_gap(frame.timestamp, pose);
   motion_.restart(frame.timestamp, pose);
   relocalizations_ = 0;
   status_ = TrackStatus::kTracking;
@@ -207,6 +209,19 @@ void Tracker::coast(const std::string& reason, TrackResult& result) {
     status_ = time <= options_.state.coast_time ? TrackStatus::kCoasting : TrackStatus::kLost;
   result.reason =
       status_ == TrackStatus::kLost ? "lost for " + std::to_string(time) + " s: " + reason : reason;
+}
+
+// Frames that the last velocity carried end where the measured one begins: what it was wrong by is spread
+// over them evenly.
+void Tracker::close_gap(double timestamp, const SE3& measured) {
+  if (unsettled_.empty() || !unsettled_.back().in_open_gap) return;
+  const double start = motion_.last_timestamp(), length = timestamp - start;
+  const Vector6d off = (measured * motion_.predict(timestamp).inverse()).log();
+  for (auto frame = unsettled_.rbegin(); frame != unsettled_.rend() && frame->in_open_gap; ++frame) {
+    frame->camera_from_world =
+        (SE3::exp(off * ((frame->timestamp - start) / length)) * frame->camera_from_world).normalized();
+    frame->in_open_gap = false;
+  }
 }
 
 void Tracker::finish_frame(TrackerOutput& out) {
@@ -225,7 +240,7 @@ void Tracker::finish_frame(TrackerOutput& out) {
     result.covariance.diagonal().tail<3>().array() += std::pow(options_.state.coast_turn * half_square, 2);
   }
   result.entropy = differential_entropy(result.covariance);
-  unsettled_.push_back({result.frame, result.timestamp, status_, pose, measured});
+  unsettled_.push_back({result.frame, result.timestamp, status_, pose, measured, !measured});
   if (!measured) return;
   tracked_before_ = static_cast<int>(map_.window.back().sightings.size());
   ++frames_since_keyframe_;

@@ -64,6 +64,7 @@ class Tracker {
     TrackStatus status;
     SE3 camera_from_world;  // of frames that are not in the window
     bool in_window;
+    bool in_open_gap;  // carried by the last velocity, and nothing has been measured since
   };
   struct SeenByKeyframe {
     LandmarkId landmark;
@@ -77,6 +78,7 @@ class Tracker {
   void begin(const Frame& frame, TrackResult& result);
   std::optional<SE3> starting_pose(const Frame& frame, TrackResult& result);
   void coast(const std::string& reason, TrackResult& result);
+  void close_gap(double timestamp, const SE3& measured);
   void finish_frame(TrackerOutput& out);
 
   KeyframeEvidence evidence(const WindowFrame& present) const;

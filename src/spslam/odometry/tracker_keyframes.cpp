@@ -77,8 +77,9 @@ void Tracker::let_go() {
 }
 
 void Tracker::settle(std::size_t frames_kept, TrackerOutput& out) {
-  while (!unsettled_.empty() && (!unsettled_.front().in_window || map_.window.size() > frames_kept)) {
+  while (!unsettled_.empty()) {
     const Unsettled& oldest = unsettled_.front();
+    if (oldest.in_window ? map_.window.size() <= frames_kept : oldest.in_open_gap) break;
     SE3 pose = oldest.camera_from_world;
     if (oldest.in_window) {
       const WindowFrame& frame = map_.window.front();
@@ -118,6 +119,7 @@ KeyframeProposal Tracker::propose(const WindowFrame& frame) {
 
 TrackerOutput Tracker::finish() {
   TrackerOutput out;
+  for (Unsettled& frame : unsettled_) frame.in_open_gap = false;
   settle(0, out);
   return out;
 }
