@@ -28,7 +28,6 @@ using testing::HasSubstr;
 using Bytes = std::vector<std::byte>;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kHeader = 24;  // bytes before the payload
 
 class MapFile : public testing::Test {
  protected:
