@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include "mapping/feature_world.h"
+
 namespace spslam {
 namespace {
 
@@ -150,6 +152,68 @@ TEST(LocalMapper, NumbersThatAreNotFiniteDoNotSpread) {
   EXPECT_TRUE(mapper.map().find(KeyframeId{1})->camera_from_world.is_finite());
   for (const auto& [id, landmark] : mapper.map().landmarks())
     EXPECT_TRUE(std::isfinite(landmark.inverse_depth));
+}
+
+constexpr double kWallDepth = 4, kWallStep = 0.1;  // m
+
+// A keyframe before a wall that fills the image, a step to the right of the one before, with what all of them
+// see.
+KeyframeProposal wall_proposal(const StereoRig& rig, const cv::Mat& wall, int k) {
+  KeyframeProposal out;
+  const double shift = k * rig.fx * kWallStep / kWallDepth;
+  cv::Mat seen;
+  cv::warpAffine(wall, seen, cv::Matx23d(1, 0, -shift, 0, 1, 0), wall.size(), cv::INTER_CUBIC);
+  out.keyframe.id = {k};
+  out.keyframe.camera_from_world.translation.x() = -k * kWallStep;
+  out.keyframe.left = AlignmentPyramid(seen, 3);
+  for (int l = 0; l < 20; ++l) {
+    const double u = 100 + 25 * l, v = 60 + 12 * l,
+                 disparity = rig.disparity_per_inverse_depth() / kWallDepth;
+    out.keyframe.sightings.push_back({{l}, {u - shift, v, disparity}, {3, 3, 8}, 1});
+    if (k > 0) continue;
+    Landmark landmark;
+    landmark.id = {l};
+    landmark.host = {0};
+    landmark.pixel = Eigen::Vector2d(u, v).cast<float>();
+    landmark.bearing = rig.bearing(u, v);
+    landmark.inverse_depth = 1 / kWallDepth;
+    landmark.information = 1e4;
+    out.new_landmarks.push_back(landmark);
+  }
+  return out;
+}
+
+TEST(LocalMapper, MakesLandmarksBetweenKeyframesUnderIdsOfItsOwn) {
+  const StereoRig rig = test::feature_rig();
+  const cv::Mat wall = test::textured_wall(rig);
+  LocalMapperOptions options;
+  options.triangulation.enabled = true;
+  LocalMapper mapper(rig, OrbOptions{}, options);
+  int made = 0;
+  LocalMapView view;
+  for (int k = 0; k < 3; ++k) {
+    MappingResult result = mapper.insert(wall_proposal(rig, wall, k));
+    made += result.triangulated;
+    view = std::move(result.view);
+  }
+  ASSERT_GT(made, 20);
+  EXPECT_EQ(mapper.map().landmarks().size(), 20U + static_cast<std::size_t>(made));
+  EXPECT_EQ(view.landmarks.size(), 20U + static_cast<std::size_t>(made));  // for the tracker to follow
+  constexpr std::int64_t kOwn = std::int64_t{1} << 40;
+  std::int64_t next = kOwn;
+  for (const auto& [id, landmark] : mapper.map().landmarks()) {
+    if (id.value < 20) continue;
+    EXPECT_EQ(id.value, next++);
+    EXPECT_NEAR(landmark.inverse_depth, 1 / kWallDepth, 4 / std::sqrt(landmark.information));
+  }
+  // A mapper that goes on with this map does not meet the ids that a tracker counts up from its end.
+  Map known = mapper.map();
+  LocalMapper second(rig, OrbOptions{}, options, std::move(known));
+  KeyframeProposal more = wall_proposal(rig, wall, 4);
+  more.keyframe.id = {3};
+  if (second.insert(std::move(more)).triangulated > 0) {
+    EXPECT_EQ(second.map().landmarks().rbegin()->first.value / kOwn, 2);
+  }
 }
 
 TEST(LocalMapper, AnIdThatIsTakenIsRefused) {

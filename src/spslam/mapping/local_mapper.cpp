@@ -4,10 +4,26 @@
 #include "spslam/mapping/local_mapper.h"
 
 namespace spslam {
+namespace {
+
+// The tracker counts landmarks up from where a map ends and does not ask anybody. Those made here have ids
+// that it does not reach: from the next multiple of 2^40 on.
+LandmarkId first_own_id(const Map& map) {
+  constexpr std::int64_t kBlock = std::int64_t{1} << 40, kBlocks = std::int64_t{1} << 22;
+  const std::int64_t last = map.landmarks().empty() ? 0 : map.landmarks().rbegin()->first.value;
+  const std::int64_t block = last / kBlock + 1;
+  return block < kBlocks ? LandmarkId{block * kBlock} : LandmarkId{};
+}
+
+}  // namespace
 
 LocalMapper::LocalMapper(const StereoRig& rig, const OrbOptions& orb, const LocalMapperOptions& options,
                          Map map)
-    : rig_(rig), options_(options), extractor_(orb), map_(std::move(map)) {
+    : rig_(rig),
+      options_(options),
+      extractor_(orb),
+      map_(std::move(map)),
+      next_landmark_(first_own_id(map_)) {
   rig.check();
   check_options(options);
 }
@@ -20,6 +36,9 @@ MappingResult LocalMapper::insert(KeyframeProposal proposal, const std::function
   adjust(stop, result);                                                                          // 3.2.2
   map_.set_features(result.keyframe,
                     describe(map_, *map_.find(result.keyframe), extractor_, options_.features));
+  result.triangulated = add_landmarks_between(map_, rig_, result.keyframe, extractor_.options().scale,
+                                              options_.triangulation, next_landmark_);
+  result.fused = fuse_duplicates(map_, rig_, result.keyframe, options_.duplicates);
   result.culled_landmarks = cull_landmarks(map_, result.keyframe, options_.culling);
   result.culled = cull_keyframes(map_, result.keyframe, options_.culling);
   result.view = view(result.keyframe);

@@ -7,8 +7,10 @@
 
 #include "spslam/mapping/culling.h"
 #include "spslam/mapping/describe.h"
+#include "spslam/mapping/fuse.h"
 #include "spslam/mapping/local_adjustment.h"
 #include "spslam/mapping/retriangulate.h"
+#include "spslam/mapping/triangulate.h"
 
 namespace spslam {
 
@@ -17,6 +19,8 @@ struct LocalMapperOptions {
   DescribeOptions features;
   RetriangulationOptions retriangulation;
   AdjustmentOptions adjustment;
+  TriangulationOptions triangulation;
+  DuplicateOptions duplicates;
   CullingOptions culling;
 
   template <class Self, class Visitor>
@@ -26,6 +30,8 @@ struct LocalMapperOptions {
     visit.group("features", self.features);
     visit.group("retriangulation", self.retriangulation);
     visit.group("adjustment", self.adjustment);
+    visit.group("triangulation", self.triangulation);
+    visit.group("duplicates", self.duplicates);
     visit.group("culling", self.culling);
   }
 };
@@ -36,7 +42,8 @@ struct MappingResult {
   int retriangulated = 0;   // landmarks
   SolveSummary adjustment;  // of the local bundle adjustment, if it ran
   int outliers = 0, culled_landmarks = 0;
-  std::vector<KeyframeId> culled;  // keyframes
+  int triangulated = 0, fused = 0;  // landmarks made between keyframes; duplicates that became one
+  std::vector<KeyframeId> culled;   // keyframes
   LocalMapView view;
 };
 
@@ -61,6 +68,7 @@ class LocalMapper {
   LocalMapperOptions options_;
   OrbExtractor extractor_;
   Map map_;
+  LandmarkId next_landmark_;  // of those made here; not valid when the ids are used up
   std::int64_t revision_ = 0;
   std::vector<KeyframeId> with_images_;  // ascending
 };
