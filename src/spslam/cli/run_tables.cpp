@@ -140,12 +140,12 @@ std::string mapping_csv(const RunRecord& record) {
   std::string text =
       "keyframe,ms,retriangulated,iterations,initial_cost,final_cost,outliers,culled_landmarks,culled_"
       "keyframes,"
-      "map_keyframes,map_landmarks\n";
+      "map_keyframes,map_landmarks,triangulated,fused\n";
   for (const MappingInfo& m : record.mapping)
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", m.keyframe.value, csv_number(1e3 * m.seconds, 3),
-                    m.retriangulated, m.iterations, csv_small(m.initial_cost), csv_small(m.final_cost),
-                    m.outliers, m.culled_landmarks, m.culled_keyframes, m.keyframes, m.landmarks);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", m.keyframe.value,
+                        csv_number(1e3 * m.seconds, 3), m.retriangulated, m.iterations,
+                        csv_small(m.initial_cost), csv_small(m.final_cost), m.outliers, m.culled_landmarks,
+                        m.culled_keyframes, m.keyframes, m.landmarks, m.triangulated, m.fused);
   return text;
 }
 

@@ -43,6 +43,7 @@ struct MappingInfo {
   int iterations = 0;  // of the local bundle adjustment
   double initial_cost = 0, final_cost = 0;
   std::size_t keyframes = 0, landmarks = 0;  // in the map afterwards
+  int triangulated = 0, fused = 0;           // landmarks made between keyframes, duplicates that became one
 };
 
 class Localizer;

@@ -74,7 +74,8 @@ void Stages::insert(KeyframeProposal proposal) {
     mapping_log_.push_back({id, time.count(), done.retriangulated, done.outliers, done.culled_landmarks,
                             static_cast<int>(done.culled.size()), done.adjustment.iterations,
                             done.adjustment.initial_cost, done.adjustment.final_cost,
-                            mapper_.map().keyframes().size(), mapper_.map().landmarks().size()});
+                            mapper_.map().keyframes().size(), mapper_.map().landmarks().size(),
+                            done.triangulated, done.fused});
     publish(std::move(done.view));
   }
   if (!options_.loop.enabled) return;
