@@ -15,20 +15,31 @@ if(SPSLAM_SANITIZE)
   target_compile_definitions(spslam_build_flags INTERFACE SPSLAM_SANITIZED=1)
 endif()
 
+# Coverage of all of the library guides the fuzzers.
+if(SPSLAM_BUILD_FUZZ)
+  target_compile_options(spslam_build_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 if(SPSLAM_PRECOMPILED_HEADERS)
   file(WRITE ${CMAKE_BINARY_DIR}/pch/empty.cpp "// the precompiled header's own translation unit\n")
   add_library(spslam_pch OBJECT ${CMAKE_BINARY_DIR}/pch/empty.cpp)
   target_link_libraries(spslam_pch PRIVATE spslam_build_flags Eigen3::Eigen opencv_core Threads::Threads)
-  target_precompile_headers(spslam_pch PRIVATE
+  set(SPSLAM_COMMON_HEADERS
     <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <optional> <span> <string>
     <string_view> <utility> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky> <opencv2/core.hpp>)
+  target_precompile_headers(spslam_pch PRIVATE ${SPSLAM_COMMON_HEADERS})
 endif()
 
+# The flags and the precompiled header of all targets, or, for tests, the one that has GoogleTest too.
 function(spslam_use_build_flags target)
+  set(pch spslam_pch)
+  if(ARGC GREATER 1)
+    set(pch ${ARGV1})
+  endif()
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:spslam_build_flags>)
   if(SPSLAM_PRECOMPILED_HEADERS)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:Eigen3::Eigen> $<BUILD_INTERFACE:opencv_core>)
-    target_precompile_headers(${target} REUSE_FROM spslam_pch)
+    target_precompile_headers(${target} REUSE_FROM ${pch})
   endif()
 endfunction()
 
@@ -61,7 +72,7 @@ function(spslam_test name)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE
     SPSLAM_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data" SPSLAM_SHARED_DATA="${SPSLAM_SHARED_DATA}")
-  spslam_use_build_flags(${target})
+  spslam_use_build_flags(${target} spslam_test_pch)
   gtest_discover_tests(${target} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
 endfunction()
 

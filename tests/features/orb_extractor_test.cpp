@@ -72,7 +72,7 @@ TEST(OrbExtractor, CoversPoorRegionsToo) {
     cells.insert({static_cast<int>(keypoint.x / 40), static_cast<int>(keypoint.y / 40)});
     poor += keypoint.x > 320 ? 1 : 0;
   }
-  EXPECT_GE(cells.size(), 16U * 9U - 6U);
+  EXPECT_GE(cells.size(), 16U * 9U - 8U);
   EXPECT_GT(poor, static_cast<int>(keypoints.size()) / 4);
 }
 

@@ -18,7 +18,21 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+std::vector<double> disparities_of(const WindowFrame& frame) {
+  std::vector<double> out;
+  for (const Sighting& s : frame.sightings)
+    if (s.inverse_sigma.z() > 0) out.push_back(s.measured.z());
+  return out;
+}
+
 }  // namespace
+
+bool leaves_points_in_front(std::vector<double> measured, double offset, double sigma) {
+  if (measured.empty()) return true;
+  const auto low = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 20);
+  std::nth_element(measured.begin(), low, measured.end());
+  return *low - offset > -3 * sigma;
+}
 
 double believable_mean(const std::deque<double>& estimates, double scatter, double floor) {
   if (estimates.empty()) return 0;
@@ -46,7 +60,11 @@ DisparityOffset RigMonitor::update(const ActiveMap& map, const SolverOptions& so
   patient.relative_decrease = 1e-7;
   const SolveSummary summary = solve_for_offset(map, patient, offset);
   const double information = summary.offset_information(0, 0);
-  if (summary.status != SolveStatus::kFailed &&
+  // Boats that move alike pull at depth and motion as an offset would.
+  const bool is_possible = std::abs(offset.coefficients[0]) <= options.max_offset &&
+                           leaves_points_in_front(disparities_of(map.window.back()), offset.coefficients[0],
+                                                  options.window_scatter);
+  if (summary.status != SolveStatus::kFailed && is_possible &&
       information * options.window_scatter * options.window_scatter > 1) {
     estimates_.push_back(offset.coefficients[0]);
     if (static_cast<int>(estimates_.size()) > options.memory) estimates_.pop_front();

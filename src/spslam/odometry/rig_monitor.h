@@ -18,6 +18,7 @@ struct RigOptions {
   double window_scatter = 0.1;
   double floor = 0.1;
   double max_rotation = 5;
+  double max_offset = 1;
   double warn = 0.3;
 
   template <class Self, class Visitor>
@@ -31,6 +32,10 @@ struct RigOptions {
     visit(self.max_rotation,
           {"max_rotation", "deg",
            "windows that turn more are left out: there, other errors of the calibration look alike", 0, 180});
+    visit(self.max_offset,
+          {"max_offset", "px",
+           "windows that want more are left out: no rectified rig is so wrong, but what moves looks like it",
+           0, 100});
     visit(self.warn,
           {"warn", "px", "offset from which on a warning says that the rig needs calibration", 0, 100});
   }
@@ -45,6 +50,10 @@ class RigMonitor {
   std::deque<double> estimates_;  // px, one a window
   bool has_warned_ = false;
 };
+
+// Whether disparities of a frame would still be those of points in front of the camera without that offset:
+// all but a few (5 %) at least zero, up to their noise. measured: px, raw.
+bool leaves_points_in_front(std::vector<double> measured, double offset, double sigma);
 
 // The mean of estimates as far as they can be believed: shrunk by what their scatter, and `floor`, leave open
 // (James and Stein's factor, never negative). `scatter` counts as three earlier estimates' deviation.
