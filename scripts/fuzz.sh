@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 total=${1:-60}
-cmake --preset asan -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" >/dev/null
+cmake --preset asan -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g1" >/dev/null
 mapfile -t names < <(ninja -C build/asan -t targets all | sed -n 's/^\(fuzz_[a-z0-9_]*\): phony$/\1/p' | sort -u)
 [ ${#names[@]} -gt 0 ] || { echo "no target is called fuzz_*" >&2; exit 1; }
 cmake --build --preset asan --target "${names[@]}"
