@@ -5,12 +5,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include "spslam/optimize/pieces.h"
+
 namespace spslam {
 namespace {
 
-constexpr std::size_t kBlock = 128;  // landmarks
-
-// Sums over one block of landmarks, for each pair (host, observing pose) in coordinates of their relative
+// Sums over one piece of the landmarks, for each pair (host, observing pose) in coordinates of their relative
 // motion, so that the adjoint that leads to the two poses is applied once a pair and not once an observation.
 struct PairSums {
   Matrix6d hessian = Matrix6d::Zero();
@@ -18,41 +18,28 @@ struct PairSums {
   Eigen::Matrix<double, 6, 4> by_offset = Eigen::Matrix<double, 6, 4>::Zero();
 };
 
-struct BlockSums {
-  std::vector<PairSums> pairs;  // one a pair of the table
+struct PieceSums {
+  std::vector<PairSums> pairs;  // one a pair of the piece
   Matrix4d offset_hessian = Matrix4d::Zero();
   Vector4d offset_gradient = Vector4d::Zero();
   double cost = 0;
 };
 
-struct Pair {
-  int host, pose;
+struct PairMotion {
   SE3 camera_from_host;
   Matrix6d adjoint;
 };
 
-// The pairs that are observed, and each observation's place among them.
-struct PairTable {
-  std::vector<Pair> pairs;
-  std::vector<int> of_observation;
-
-  explicit PairTable(const Problem& problem) {
-    const std::size_t poses = problem.poses.size();
-    std::vector<int> index(poses * poses, -1);
-    of_observation.reserve(problem.observations.size());
-    for (const Observation& z : problem.observations) {
-      const int host = problem.landmarks[z.landmark].host;
-      int& at = index[static_cast<std::size_t>(host) * poses + static_cast<std::size_t>(z.pose)];
-      if (at < 0) {
-        at = static_cast<int>(pairs.size());
-        const SE3 motion =
-            problem.poses[z.pose].camera_from_world * problem.poses[host].camera_from_world.inverse();
-        pairs.push_back({host, z.pose, motion, motion.adjoint()});
-      }
-      of_observation.push_back(at);
-    }
+std::vector<PairMotion> motions_of(const Problem& problem, const ProblemStructure& structure) {
+  std::vector<PairMotion> motions;
+  motions.reserve(structure.pairs.size());
+  for (const ObservedPair& pair : structure.pairs) {
+    const SE3 motion =
+        problem.poses[pair.pose].camera_from_world * problem.poses[pair.host].camera_from_world.inverse();
+    motions.push_back({motion, motion.adjoint()});
   }
-};
+  return motions;
+}
 
 // Robust weights of the image position and of the disparity, which fail independently of each other.
 Eigen::Vector3d weigh(const Eigen::Vector3d& residual, const Observation& z, const SolverOptions& options,
@@ -65,32 +52,46 @@ Eigen::Vector3d weigh(const Eigen::Vector3d& residual, const Observation& z, con
                         Eigen::Vector3d(position.weight, position.weight, disparity.weight));
 }
 
-class BlockAccumulator {
+class PieceAccumulator {
  public:
-  BlockAccumulator(const Problem& problem, const PoseColumns& columns, const SolverOptions& options,
-                   const PairTable& table, NormalEquations& out)
-      : problem_(problem), columns_(columns), options_(options), table_(table), out_(out) {}
+  PieceAccumulator(const Problem& problem, const ProblemStructure& structure, const SolverOptions& options,
+                   NormalEquations& out)
+      : problem_(problem),
+        structure_(structure),
+        options_(options),
+        motions_(motions_of(problem, structure)),
+        out_(out) {}
 
-  // Observations [first, last) of landmark l.
-  void add_landmark(int l, std::size_t first, std::size_t last, BlockSums& sums) const {
-    const LandmarkVariable& landmark = problem_.landmarks[l];
-    const double prior_error = landmark.inverse_depth - landmark.prior_inverse_depth;
-    double hessian = landmark.prior_information, gradient = landmark.prior_information * prior_error;
-    sums.cost += landmark.prior_information * prior_error * prior_error;
-    auto mixed = out_.mixed.row(l);
-    mixed.setZero();
-    for (std::size_t i = first; i < last; ++i) add_observation(i, landmark, mixed, hessian, gradient, sums);
-    if (landmark.fixed) mixed.setZero();
-    out_.landmark_hessian[l] = landmark.fixed ? 0 : hessian;
-    out_.landmark_gradient[l] = landmark.fixed ? 0 : gradient;
+  void add_piece(std::size_t piece, PieceSums& sums) const {
+    sums.pairs.resize(structure_.pairs_of_piece[piece].size());
+    const auto [first, last] = piece_of(piece, problem_.landmarks.size());
+    for (std::size_t l = first; l < last; ++l) add_landmark(l, structure_.pairs_of_piece[piece], sums);
   }
+  const PairMotion& motion(std::size_t pair) const { return motions_[pair]; }
 
  private:
-  template <class Row>
-  void add_observation(std::size_t i, const LandmarkVariable& landmark, Row& mixed, double& hessian,
-                       double& gradient, BlockSums& sums) const {
+  void add_landmark(std::size_t l, const std::vector<int>& pairs, PieceSums& sums) const {
+    const LandmarkVariable& landmark = problem_.landmarks[l];
+    const double prior_error = landmark.inverse_depth - landmark.prior_inverse_depth;
+    Own own{landmark.prior_information, landmark.prior_information * prior_error};
+    sums.cost += landmark.prior_information * prior_error * prior_error;
+    for (std::size_t e = structure_.first_entry[l]; e < structure_.first_entry[l + 1]; ++e)
+      out_.mixed[e].setZero();
+    for (std::size_t i = structure_.first_observation[l]; i < structure_.first_observation[l + 1]; ++i)
+      add_observation(i, pairs, own, sums);
+    out_.landmark_hessian[static_cast<Eigen::Index>(l)] = landmark.fixed ? 0 : own.hessian;
+    out_.landmark_gradient[static_cast<Eigen::Index>(l)] = landmark.fixed ? 0 : own.gradient;
+  }
+
+  struct Own {
+    double hessian, gradient;
+  };
+
+  void add_observation(std::size_t i, const std::vector<int>& pairs, Own& own, PieceSums& sums) const {
     const Observation& z = problem_.observations[i];
-    const Pair& pair = table_.pairs[table_.of_observation[i]];
+    const LandmarkVariable& landmark = problem_.landmarks[z.landmark];
+    const auto place = static_cast<std::size_t>(structure_.pair_of_observation[i]);
+    const PairMotion& pair = motions_[static_cast<std::size_t>(pairs[place])];
     Linearized at =
         linearize(problem_.rig, pair.camera_from_host, landmark.bearing, landmark.inverse_depth, z.measured);
     if (!at.in_front) return;
@@ -98,38 +99,47 @@ class BlockAccumulator {
     at.residual.z() += basis.dot(problem_.disparity_offset.coefficients);
     const Eigen::Vector3d w = weigh(at.residual, z, options_, sums.cost);
     const Eigen::Vector3d weighted_by_depth = w.cwiseProduct(at.by_inverse_depth);
-    hessian += weighted_by_depth.dot(at.by_inverse_depth);
-    gradient += weighted_by_depth.dot(at.residual);
-    if (columns_.offset >= 0) {
-      mixed.template segment<4>(columns_.offset) += weighted_by_depth.z() * basis.transpose();
+    own.hessian += weighted_by_depth.dot(at.by_inverse_depth);
+    own.gradient += weighted_by_depth.dot(at.residual);
+    const bool with_offset = structure_.columns.offset >= 0;
+    if (with_offset) {
+      if (!landmark.fixed)
+        out_.mixed[structure_.first_entry[static_cast<std::size_t>(z.landmark) + 1] - 1].head<4>() +=
+            weighted_by_depth.z() * basis;
       sums.offset_hessian += w.z() * basis * basis.transpose();
       sums.offset_gradient += w.z() * at.residual.z() * basis;
     }
     if (landmark.host == z.pose) return;  // a host's own disparity says nothing of its pose
-    const int host_column = columns_.of_pose[landmark.host], pose_column = columns_.of_pose[z.pose];
-    if (host_column < 0 && pose_column < 0) return;
-    PairSums& sum = sums.pairs[table_.of_observation[i]];
+    const std::vector<int>& column = structure_.columns.of_pose;
+    if (column[landmark.host] < 0 && column[z.pose] < 0) return;
+    PairSums& sum = sums.pairs[place];
     const Eigen::Matrix<double, 6, 3> weighted = at.by_relative.transpose() * w.asDiagonal();
     sum.hessian.noalias() += weighted.lazyProduct(at.by_relative);
     sum.gradient.noalias() += weighted.lazyProduct(at.residual);
-    if (columns_.offset >= 0) sum.by_offset.noalias() += weighted.col(2) * basis.transpose();
+    if (with_offset) sum.by_offset.noalias() += weighted.col(2) * basis.transpose();
     const Vector6d cross = weighted.lazyProduct(at.by_inverse_depth);
-    if (pose_column >= 0) mixed.template segment<6>(pose_column) += cross.transpose();
-    if (host_column >= 0)
-      mixed.template segment<6>(host_column) -= (pair.adjoint.transpose() * cross).transpose();
+    if (const int e = structure_.entry_of_pose[i]; e >= 0) out_.mixed[e] += cross;
+    if (const int e = structure_.entry_of_host[i]; e >= 0) out_.mixed[e] -= pair.adjoint.transpose() * cross;
   }
 
   const Problem& problem_;
-  const PoseColumns& columns_;
+  const ProblemStructure& structure_;
   const SolverOptions& options_;
-  const PairTable& table_;
+  std::vector<PairMotion> motions_;
   NormalEquations& out_;
 };
 
+// Adds to the lower half; a and b are first columns.
+void add_to_hessian(int a, int b, const Matrix6d& sum, NormalEquations& out) {
+  if (a >= b)
+    out.pose_hessian.block(a / 6, b / 6) += sum;
+  else
+    out.pose_hessian.block(b / 6, a / 6) += sum.transpose();
+}
+
 void add_offset_block(const Eigen::Matrix<double, 6, 4>& block, int pose, int offset, NormalEquations& out) {
-  if (pose < 0 || offset < 0) return;
-  out.pose_hessian.block<6, 4>(pose, offset) += block;
-  out.pose_hessian.block<4, 6>(offset, pose) += block.transpose();
+  if (pose >= 0 && offset >= 0)
+    out.pose_hessian.block(offset / 6, pose / 6).topRows<4>() += block.transpose();
 }
 
 // The relative motion camera_from_host changes by delta_camera - Ad delta_host.
@@ -138,16 +148,14 @@ void add_pair(const PairSums& sum, const Matrix6d& adjoint, int host, int pose, 
   add_offset_block(sum.by_offset, pose, offset, out);
   add_offset_block(-adjoint.transpose() * sum.by_offset, host, offset, out);
   if (pose >= 0) {
-    out.pose_hessian.block<6, 6>(pose, pose) += sum.hessian;
+    add_to_hessian(pose, pose, sum.hessian, out);
     out.pose_gradient.segment<6>(pose) += sum.gradient;
   }
   if (host < 0) return;
   const Matrix6d half = sum.hessian * adjoint;
-  out.pose_hessian.block<6, 6>(host, host) += adjoint.transpose() * half;
+  add_to_hessian(host, host, adjoint.transpose() * half, out);
   out.pose_gradient.segment<6>(host) -= adjoint.transpose() * sum.gradient;
-  if (pose < 0) return;
-  out.pose_hessian.block<6, 6>(pose, host) -= half;
-  out.pose_hessian.block<6, 6>(host, pose) -= half.transpose();
+  if (pose >= 0) add_to_hessian(pose, host, -half, out);
 }
 
 void add_pose_prior(const PosePrior& prior, const Problem& problem, const PoseColumns& columns,
@@ -156,7 +164,7 @@ void add_pose_prior(const PosePrior& prior, const Problem& problem, const PoseCo
   out.cost += r.dot(prior.information * r);
   const int column = columns.of_pose[prior.pose];
   if (column < 0) return;
-  out.pose_hessian.block<6, 6>(column, column) += prior.information;
+  add_to_hessian(column, column, prior.information, out);
   out.pose_gradient.segment<6>(column) += prior.information * r;
 }
 
@@ -173,70 +181,54 @@ void add_motion_prior(const MotionPrior& prior, const Problem& problem, const Po
     const Matrix6d weighted = at.by_pose[a].transpose() * prior.information;
     out.pose_gradient.segment<6>(row) += weighted * at.residual;
     for (int b = 0; b < 3; ++b)
-      if (const int column = columns.of_pose[poses[b]]; column >= 0)
-        out.pose_hessian.block<6, 6>(row, column) += weighted * at.by_pose[b];
+      if (const int column = columns.of_pose[poses[b]]; column >= 0 && column <= row)
+        add_to_hessian(row, column, weighted * at.by_pose[b], out);
   }
 }
 
-void add_offset(const DisparityOffset& offset, int column, const std::vector<BlockSums>& sums,
+void add_offset(const DisparityOffset& offset, int column, const std::vector<PieceSums>& sums,
                 NormalEquations& out) {
   const Vector4d error = offset.coefficients - offset.prior_mean;
   out.cost += error.dot(offset.prior_information * error);
   if (column < 0) return;
-  out.pose_hessian.block<4, 4>(column, column) += offset.prior_information;
+  Eigen::Map<Matrix6d> hessian = out.pose_hessian.block(column / 6, column / 6);
+  hessian.topLeftCorner<4, 4>() += offset.prior_information;
   out.pose_gradient.segment<4>(column) += offset.prior_information * error;
-  for (const BlockSums& block : sums) {
-    out.pose_hessian.block<4, 4>(column, column) += block.offset_hessian;
+  for (const PieceSums& block : sums) {
+    hessian.topLeftCorner<4, 4>() += block.offset_hessian;
     out.pose_gradient.segment<4>(column) += block.offset_gradient;
   }
 }
 
-// Where each landmark's observations begin.
-std::vector<std::size_t> first_observations(const Problem& problem) {
-  std::vector<std::size_t> first(problem.landmarks.size() + 1, 0);
-  for (const Observation& z : problem.observations) ++first[static_cast<std::size_t>(z.landmark) + 1];
-  for (std::size_t l = 1; l < first.size(); ++l) first[l] += first[l - 1];
-  return first;
-}
-
-void reset(const Problem& problem, const PoseColumns& columns, NormalEquations& out) {
+void reset(const Problem& problem, const ProblemStructure& structure, NormalEquations& out) {
   const auto landmarks = static_cast<Eigen::Index>(problem.landmarks.size());
   out.cost = 0;
-  out.pose_hessian.setZero(columns.count, columns.count);
-  out.pose_gradient.setZero(columns.count);
-  out.mixed.resize(landmarks, columns.count);
+  out.pose_hessian.reset(structure.envelope);
+  out.pose_gradient.setZero(structure.columns.count);
+  out.mixed.resize(structure.block_of_entry.size());
   out.landmark_hessian.resize(landmarks);
   out.landmark_gradient.resize(landmarks);
 }
 
 }  // namespace
 
-PoseColumns::PoseColumns(const Problem& problem) {
-  for (const PoseVariable& pose : problem.poses) {
-    of_pose.push_back(pose.fixed ? -1 : count);
-    if (!pose.fixed) count += 6;
-  }
-  if (!problem.disparity_offset.fixed) offset = count, count += 4;
-}
-
-void build_normal_equations(const Problem& problem, const PoseColumns& columns, const SolverOptions& options,
-                            NormalEquations& out) {
-  reset(problem, columns, out);
-  const PairTable table(problem);
-  const std::vector<std::size_t> first = first_observations(problem);
-  const std::size_t landmarks = problem.landmarks.size(), blocks = (landmarks + kBlock - 1) / kBlock;
-  std::vector<BlockSums> sums(blocks);
-  const BlockAccumulator accumulator(problem, columns, options, table, out);
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    sums[b].pairs.resize(table.pairs.size());
-    for (std::size_t l = b * kBlock; l < std::min((b + 1) * kBlock, landmarks); ++l)
-      accumulator.add_landmark(static_cast<int>(l), first[l], first[l + 1], sums[b]);
-  });
-  for (const BlockSums& block : sums) {
-    out.cost += block.cost;
-    for (std::size_t pair = 0; pair < block.pairs.size(); ++pair)
-      add_pair(block.pairs[pair], table.pairs[pair].adjoint, columns.of_pose[table.pairs[pair].host],
-               columns.of_pose[table.pairs[pair].pose], columns.offset, out);
+void build_normal_equations(const Problem& problem, const ProblemStructure& structure,
+                            const SolverOptions& options, NormalEquations& out) {
+  reset(problem, structure, out);
+  const PoseColumns& columns = structure.columns;
+  const std::size_t pieces = structure.pairs_of_piece.size();
+  std::vector<PieceSums> sums(pieces);
+  const PieceAccumulator accumulator(problem, structure, options, out);
+  tbb::parallel_for(std::size_t{0}, pieces,
+                    [&](std::size_t piece) { accumulator.add_piece(piece, sums[piece]); });
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    out.cost += sums[piece].cost;
+    for (std::size_t i = 0; i < sums[piece].pairs.size(); ++i) {
+      const auto pair = static_cast<std::size_t>(structure.pairs_of_piece[piece][i]);
+      add_pair(sums[piece].pairs[i], accumulator.motion(pair).adjoint,
+               columns.of_pose[structure.pairs[pair].host], columns.of_pose[structure.pairs[pair].pose],
+               columns.offset, out);
+    }
   }
   add_offset(problem.disparity_offset, columns.offset, sums, out);
   for (const PosePrior& prior : problem.pose_priors) add_pose_prior(prior, problem, columns, out);

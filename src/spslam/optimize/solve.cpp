@@ -6,6 +6,7 @@
 
 #include "spslam/optimize/normal_equations.h"
 #include "spslam/optimize/problem.h"
+#include "spslam/optimize/reduced_system.h"
 
 namespace spslam {
 namespace {
@@ -19,42 +20,26 @@ struct Step {
   bool valid = false;
 };
 
-// Poses' Hessian and gradient with the landmarks eliminated.
-struct Reduced {
-  Eigen::MatrixXd hessian;
-  Eigen::VectorXd gradient;
-};
-
 Eigen::VectorXd inverse_information(const Eigen::VectorXd& hessian, double damping) {
   return (hessian.array() > kLeastInformation)
       .select(1 / (hessian.array() * (1 + damping)).max(kLeastInformation), 0.0);
 }
 
-Reduced eliminate_landmarks(const NormalEquations& equations, double damping) {
-  const Eigen::VectorXd inverse = inverse_information(equations.landmark_hessian, damping);
-  Reduced reduced;
-  reduced.hessian = equations.pose_hessian;
-  reduced.hessian.diagonal() *= 1 + damping;
-  const Eigen::MatrixXd scaled = inverse.cwiseSqrt().asDiagonal() * equations.mixed;
-  reduced.hessian.selfadjointView<Eigen::Lower>().rankUpdate(scaled.transpose(), -1.0);
-  reduced.gradient = equations.pose_gradient;
-  reduced.gradient.noalias() -=
-      equations.mixed.transpose() * inverse.cwiseProduct(equations.landmark_gradient);
-  return reduced;
-}
-
-Step solve_step(const NormalEquations& equations, double damping) {
+Step solve_step(const NormalEquations& equations, const ProblemStructure& structure, double damping,
+                ReducedSystem& reduced) {
   Step step;
   const Eigen::VectorXd inverse = inverse_information(equations.landmark_hessian, damping);
-  Eigen::VectorXd landmark_gradient = equations.landmark_gradient;
-  if (equations.pose_gradient.size() > 0) {
-    const Reduced reduced = eliminate_landmarks(equations, damping);
-    const Eigen::LLT<Eigen::MatrixXd> factor(reduced.hessian);
-    if (factor.info() != Eigen::Success) return step;
-    step.poses = factor.solve(-reduced.gradient);
-    landmark_gradient.noalias() += equations.mixed * step.poses;
+  step.landmarks = equations.landmark_gradient;
+  if (structure.columns.count > 0) {
+    eliminate_landmarks(equations, structure, inverse, damping, reduced);
+    if (!reduced.hessian.factorize()) return step;
+    step.poses = -reduced.gradient;
+    reduced.hessian.solve(step.poses);
+    for (Eigen::Index l = 0; l < step.landmarks.size(); ++l)
+      for (std::size_t e = structure.first_entry[l]; e < structure.first_entry[l + 1]; ++e)
+        step.landmarks[l] += equations.mixed[e].dot(step.poses.segment<6>(6 * structure.block_of_entry[e]));
   }
-  step.landmarks = -inverse.cwiseProduct(landmark_gradient);
+  step.landmarks = -inverse.cwiseProduct(step.landmarks);
   step.valid = step.poses.allFinite() && step.landmarks.allFinite();
   return step;
 }
@@ -87,11 +72,13 @@ struct Values {
   std::vector<double> inverse_depths;
 };
 
-void find_uncertainty(const NormalEquations& equations, const PoseColumns& columns, const Problem& problem,
-                      SolveSummary& summary) {
+void find_uncertainty(const NormalEquations& equations, const ProblemStructure& structure,
+                      const Problem& problem, SolveSummary& summary) {
+  const PoseColumns& columns = structure.columns;
   if (columns.count == 0) return;
-  const Reduced reduced = eliminate_landmarks(equations, 0);
-  const Eigen::LLT<Eigen::MatrixXd> factor(reduced.hessian);
+  ReducedSystem reduced;
+  eliminate_landmarks(equations, structure, inverse_information(equations.landmark_hessian, 0), 0, reduced);
+  const Eigen::LLT<Eigen::MatrixXd> factor(reduced.hessian.dense(columns.count));
   if (factor.info() != Eigen::Success) return;
   const Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(columns.count, columns.count));
   const int poses = columns.offset >= 0 ? columns.offset : columns.count;
@@ -105,9 +92,10 @@ void find_uncertainty(const NormalEquations& equations, const PoseColumns& colum
 
 SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_covariance,
                    const std::function<bool()>& stop) {
-  const PoseColumns columns(problem);
+  const ProblemStructure structure(problem);
   NormalEquations equations, trial;
-  build_normal_equations(problem, columns, options, equations);
+  ReducedSystem reduced;
+  build_normal_equations(problem, structure, options, equations);
   SolveSummary summary;
   summary.status = SolveStatus::kIterationsUsedUp;
   summary.initial_cost = summary.final_cost = equations.cost;
@@ -118,11 +106,11 @@ SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_cov
       break;
     }
     ++summary.iterations;
-    const Step step = solve_step(equations, damping);
+    const Step step = solve_step(equations, structure, damping, reduced);
     const Values before(problem);
     if (step.valid) {
-      apply(step, columns, problem);
-      build_normal_equations(problem, columns, options, trial);
+      apply(step, structure.columns, problem);
+      build_normal_equations(problem, structure, options, trial);
     }
     if (step.valid && trial.cost <= equations.cost) {
       const double decrease = equations.cost - trial.cost;
@@ -143,13 +131,13 @@ SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_cov
   }
   summary.final_cost = equations.cost;
   if (!std::isfinite(summary.final_cost)) summary.status = SolveStatus::kFailed;
-  if (want_covariance) find_uncertainty(equations, columns, problem, summary);
+  if (want_covariance) find_uncertainty(equations, structure, problem, summary);
   return summary;
 }
 
 double total_cost(const Problem& problem, const SolverOptions& options) {
   NormalEquations equations;
-  build_normal_equations(problem, PoseColumns(problem), options, equations);
+  build_normal_equations(problem, ProblemStructure(problem), options, equations);
   return equations.cost;
 }
 
