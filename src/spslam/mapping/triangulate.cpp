@@ -240,7 +240,8 @@ class LandmarkMaker {
     Landmark& landmark = trial.landmark;
     landmark.id = next;
     ++next.value;
-    // All views share the way between the keyframes: more of them do not make it better known.
+    // The depth has its scale from the motion. Taken for more certain, it would hold the tracker's next
+    // motions to the scale of the last ones, errors and all.
     const double relative = relative_variance(trial) + options_.motion_sigma * options_.motion_sigma;
     landmark.information = 1 / (relative * landmark.inverse_depth * landmark.inverse_depth);
     map_.add(landmark);

@@ -24,7 +24,7 @@ struct TriangulationOptions {
   double max_relative_sigma = 0.1;
   double max_chi2 = 5.99;
   double max_scale_change = 1.5;
-  double motion_sigma = 0.02;
+  double motion_sigma = 0.2;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
