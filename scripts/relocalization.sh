@@ -47,13 +47,13 @@ for scene in "${scenes[@]}"; do
   cp "$data"/*.txt "$data.gap"
   for eye in image_0 image_1; do
     mkdir "$data.gap/$eye"
-    for ((i = 0; i < frames; ++i)); do
-      name=$(printf '%06d.png' "$i")
-      if ((i < first || i >= first + 30)) && [ -f "$data/$eye/$name" ]; then ln "$data/$eye/$name" "$data.gap/$eye/"; fi
+    for image in "$data/$eye"/*.png; do
+      index=$((10#$(basename "$image" .png)))
+      if ((index < first || index >= first + 30)); then ln "$image" "$data.gap/$eye/"; fi
     done
   done
   for run in "$data" "$data.gap"; do
     "$program" run "$run" --sequential --quiet --samples 0 --output "$run.run" --overwrite
   done
-  echo "| $scene | $(found_after "$data.gap.run") | $(ate_of "$data.gap.run") | $(ate_of "$data.run") |"
+  printf '| %s | %s | %.3f | %.3f |\n' "$scene" "$(found_after "$data.gap.run")" "$(ate_of "$data.gap.run")" "$(ate_of "$data.run")"
 done

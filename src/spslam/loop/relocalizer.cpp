@@ -3,6 +3,8 @@
 
 #include "spslam/loop/relocalizer.h"
 
+#include <spdlog/fmt/fmt.h>
+
 namespace spslam {
 namespace {
 
@@ -31,11 +33,12 @@ RelocalizationAttempt relocalize(const KeyframeFeatures& query, const Map& map, 
     const Place place = place_of(map, rig, id, options.verification.neighbours);
     Verification verified = verify(place, query, rig, index.vocabulary(), options.verification);
     verified.pairs.clear();
-    if (verified.accepted()) {
+    if (verified.accepted() || verified.stage == VerificationStage::kUncertain) {
       const SE3 pose = (verified.newer_from_older * map.find(id)->camera_from_world).normalized();
       const Relocalized here{pose, verified.covariance, id, verified.inliers};
-      if (out.found && !agree(*out.found, here)) contradiction = true;
-      if (!out.found || here.inliers > out.found->inliers) out.found = here;
+      std::optional<Relocalized>& best = verified.accepted() ? out.found : out.imprecise;
+      if (best && !agree(*best, here)) contradiction = true;
+      if (!best || here.inliers > best->inliers) best = here;
     }
     out.tried.push_back({id, score, std::move(verified)});
   };
@@ -46,8 +49,21 @@ RelocalizationAttempt relocalize(const KeyframeFeatures& query, const Map& map, 
     for (const CandidateGroup& group : group_candidates(index.query(query, exclude), map))
       if (candidates++ < options.candidates) compare(group.best, group.score);
   }
+  if (contradiction || out.found) out.imprecise.reset();
   if (contradiction) out.found.reset();
   return out;
+}
+
+std::string describe_attempt(const RelocalizationAttempt& attempt) {
+  std::string text;
+  for (const RelocalizationAttempt::Tried& tried : attempt.tried) {
+    const Verification& v = tried.verification;
+    text += fmt::format("{}keyframe {}: {} ({} matches, {} of one motion, {} inliers, {:.2f} m, {:.2f} deg)",
+                        text.empty() ? "" : "; ", tried.keyframe.value,
+                        option_names(v.stage)[static_cast<std::size_t>(v.stage)], v.matches, v.consensus,
+                        v.inliers, v.translation_sigma, v.rotation_sigma);
+  }
+  return text.empty() ? "no keyframe looks like it" : text;
 }
 
 }  // namespace spslam

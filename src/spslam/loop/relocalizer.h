@@ -35,7 +35,13 @@ struct RelocalizationAttempt {
   };
   std::vector<Tried> tried;
   std::optional<Relocalized> found;
+  // Where nothing was found: the place that all but the last test accept, because all that is seen there is
+  // too far to tell the position precisely.
+  std::optional<Relocalized> imprecise;
 };
+
+// One line for the log: each keyframe tried, the test it ended at and its figures.
+std::string describe_attempt(const RelocalizationAttempt& attempt);
 
 // Features with inverse depths if stereo gave them; without, the map's alone must do. Nothing if two places
 // that are accepted contradict each other. Keyframes in `exclude` are no candidates, as those of the submap

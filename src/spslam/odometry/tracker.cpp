@@ -10,6 +10,8 @@ namespace spslam {
 namespace {
 
 constexpr double kLostVariance = 1e6;  // m^2 and rad^2: nothing is known
+constexpr double kCertain = 1e-12;     // m^2 and rad^2: where the world begins
+constexpr double kGate = 22.46;        // chi^2 of 6 degrees of freedom, 0.1 %
 
 // Indices into map.landmarks, spread evenly over all of them: every n-th first, then the others.
 std::vector<int> scouts_first(std::size_t count, std::size_t scouts) {
@@ -38,6 +40,17 @@ int count_inliers(const ActiveMap& map, const std::vector<Sighting>& sightings, 
 }
 
 }  // namespace
+
+std::optional<FoundPose> fuse_poses(const FoundPose& a, const FoundPose& b) {
+  const Vector6d off = (b.camera_from_world * a.camera_from_world.inverse()).log();
+  const auto sum = Matrix6d(a.covariance + b.covariance).ldlt();
+  if (!(off.dot(sum.solve(off)) <= kGate)) return std::nullopt;
+  const Matrix6d gain = sum.solve(a.covariance).transpose();
+  const Matrix6d rest = Matrix6d::Identity() - gain;
+  FoundPose out{(SE3::exp(gain * off) * a.camera_from_world).normalized(), {}, a.precise || b.precise};
+  out.covariance = rest * a.covariance * rest.transpose() + gain * b.covariance * gain.transpose();
+  return out;
+}
 
 Tracker::Tracker(const StereoRig& rig, const TrackerOptions& options)
     : options_(options), front_end_(options) {
@@ -151,21 +164,26 @@ bool Tracker::is_sound(const MotionEstimate& motion, const std::vector<Sighting>
 
 // Where tracking begins: at the origin, or where the map knows the frame to be, or, after a loss in which
 // that has failed often enough, where the last known velocity has carried. Nothing: not yet.
-std::optional<SE3> Tracker::starting_pose(const Frame& frame, TrackResult& result) {
+std::optional<FoundPose> Tracker::starting_pose(const Frame& frame, TrackResult& result) {
   const bool was_lost = status_ == TrackStatus::kLost;
-  if (!was_lost && !must_localize_) return SE3{};
+  if (!was_lost && !must_localize_) return FoundPose{{}, kCertain * Matrix6d::Identity()};
+  FoundPose reckoned;
+  if (was_lost)
+    reckoned = {motion_.predict(frame.timestamp),
+                motion_covariance_ + coasting_covariance(frame.timestamp - motion_.last_timestamp())};
   if (relocalize_ && (must_localize_ || relocalizations_ < options_.state.relocalization_frames)) {
     ++relocalizations_;
-    auto found = relocalize_(describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
-    if (found) {
-      result.reason = "found in the map";
-      return found;
-    }
-    result.reason = "not recognized in the map";
-    return std::nullopt;
+    std::optional<FoundPose> found =
+        relocalize_(describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
+    const bool precise = found && found->precise;
+    if (found && !precise) found = was_lost ? fuse_poses(reckoned, *found) : std::nullopt;
+    result.reason = !found    ? "not recognized in the map"
+                    : precise ? "found in the map"
+                              : "found in the map with dead reckoning";
+    return found;
   }
   result.reason = "begun anew where the last known velocity led";
-  return motion_.predict(frame.timestamp);
+  return reckoned;
 }
 
 void Tracker::continue_map(KeyframeId next_keyframe, LandmarkId next_landmark) {
@@ -177,12 +195,12 @@ void Tracker::continue_map(KeyframeId next_keyframe, LandmarkId next_landmark) {
 // The first keyframe, or a new one after everything was lost.
 void Tracker::begin(const Frame& frame, TrackResult& result) {
   const bool was_lost = status_ == TrackStatus::kLost;
-  const std::optional<SE3> start = starting_pose(frame, result);
+  const std::optional<FoundPose> start = starting_pose(frame, result);
   if (!start) {
     if (was_lost) coast(result.reason, result);
     return;
   }
-  const SE3& pose = *start;
+  const SE3& pose = start->camera_from_world;
   for (ActiveLandmark& active : map_.landmarks) active.missed = options_.follow.max_missed + 1;
   WindowFrame present{frame.id, frame.timestamp, pose, {}, {}};
   make_keyframe(frame, present);
@@ -198,6 +216,7 @@ void Tracker::begin(const Frame& frame, TrackResult& result) {
   map_.window.push_back(std::move(present));
   close_gap(frame.timestamp, pose);
   motion_.restart(frame.timestamp, pose);
+  motion_covariance_ = start->covariance;
   relocalizations_ = 0;
   status_ = TrackStatus::kTracking;
 }
@@ -224,6 +243,15 @@ void Tracker::close_gap(double timestamp, const SE3& measured) {
   }
 }
 
+// Of constant velocity after so many seconds, of a left perturbation.
+Matrix6d Tracker::coasting_covariance(double seconds) const {
+  const double half_square = 0.5 * seconds * seconds;
+  Vector6d sigma;
+  sigma.head<3>().setConstant(options_.state.coast_acceleration * half_square);
+  sigma.tail<3>().setConstant(options_.state.coast_turn * half_square);
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
 void Tracker::finish_frame(TrackerOutput& out) {
   TrackResult& result = out.result;
   result.status = status_;
@@ -233,12 +261,8 @@ void Tracker::finish_frame(TrackerOutput& out) {
   result.world_from_camera = pose.inverse();
   result.covariance = motion_covariance_;
   if (status_ == TrackStatus::kLost) result.covariance = kLostVariance * Matrix6d::Identity();
-  if (status_ == TrackStatus::kCoasting) {
-    const double half_square = 0.5 * std::pow(result.timestamp - motion_.last_timestamp(), 2);
-    result.covariance.diagonal().head<3>().array() +=
-        std::pow(options_.state.coast_acceleration * half_square, 2);
-    result.covariance.diagonal().tail<3>().array() += std::pow(options_.state.coast_turn * half_square, 2);
-  }
+  if (status_ == TrackStatus::kCoasting)
+    result.covariance += coasting_covariance(result.timestamp - motion_.last_timestamp());
   result.entropy = differential_entropy(result.covariance);
   unsettled_.push_back({result.frame, result.timestamp, status_, pose, measured, !measured});
   if (!measured) return;

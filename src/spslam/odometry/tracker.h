@@ -31,8 +31,19 @@ struct TrackerOutput {
   std::shared_ptr<const KeyframeFeatures> described;  // of this frame, if set_describe_interval() wants it
 };
 
-// Finds a frame in the map by what it looks like: camera_from_world, or nothing if it is not surely there.
-using Relocalize = std::function<std::optional<SE3>(const KeyframeFeatures&)>;
+// Where in the map a frame was taken, by what it looks like. The place is sure; if it is not `precise`, all
+// is far there and the pose alone is no beginning.
+struct FoundPose {
+  SE3 camera_from_world;
+  Matrix6d covariance = Matrix6d::Identity();  // of a left perturbation, (m, rad)
+  bool precise = true;
+};
+// Nothing if it is not surely there.
+using Relocalize = std::function<std::optional<FoundPose>(const KeyframeFeatures&)>;
+
+// Both together, each with the covariance of a left perturbation; nothing if they contradict each other (6
+// degrees of freedom, 0.1 %).
+std::optional<FoundPose> fuse_poses(const FoundPose& a, const FoundPose& b);
 
 class Tracker {
  public:
@@ -76,8 +87,9 @@ class Tracker {
   bool is_sound(const MotionEstimate& motion, const std::vector<Sighting>& sightings,
                 TrackResult& result) const;
   void begin(const Frame& frame, TrackResult& result);
-  std::optional<SE3> starting_pose(const Frame& frame, TrackResult& result);
+  std::optional<FoundPose> starting_pose(const Frame& frame, TrackResult& result);
   void coast(const std::string& reason, TrackResult& result);
+  Matrix6d coasting_covariance(double seconds) const;
   void close_gap(double timestamp, const SE3& measured);
   void finish_frame(TrackerOutput& out);
 

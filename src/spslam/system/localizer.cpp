@@ -85,7 +85,10 @@ std::optional<Localizer::Answer> Localizer::look(const Request& request) const {
   if (request.expected) guesses = nearest_keyframes(map_, *request.expected, options_.localization.nearest);
   const RelocalizationAttempt attempt =
       relocalize(*request.features, map_, rig_, index_, options_.loop.relocalization, {}, guesses);
-  if (!attempt.found) return std::nullopt;
+  if (!attempt.found) {
+    spdlog::debug("not recognized in the map: {}", describe_attempt(attempt));
+    return std::nullopt;
+  }
   return Answer{request.index, {attempt.found->camera_from_world, attempt.found->covariance}};
 }
 

@@ -126,15 +126,18 @@ void Stages::write(MapCorrection correction) {
   publish(mapper_.correct([&](Map& map) { apply(correction, map); }));
 }
 
-std::optional<SE3> Stages::relocalize(const KeyframeFeatures& features) {
+std::optional<FoundPose> Stages::relocalize(const KeyframeFeatures& features) {
   const std::scoped_lock lock(map_mutex_);
   const RelocalizationAttempt attempt =
       spslam::relocalize(features, mapper_.map(), rig_, closer_.index(), options_.loop.relocalization);
-  if (!attempt.found) return std::nullopt;
-  spdlog::info("found in the map: {} points agree with keyframe {}, uncertainty {:.2f} m",
-               attempt.found->inliers, attempt.found->reference.value,
-               std::sqrt(attempt.found->covariance.topLeftCorner<3, 3>().trace()));
-  return attempt.found->camera_from_world;
+  const std::optional<Relocalized>& found = attempt.found ? attempt.found : attempt.imprecise;
+  if (!found) {
+    spdlog::info("not recognized in the map: {}", describe_attempt(attempt));
+    return std::nullopt;
+  }
+  spdlog::info("found in the map: {} points agree with keyframe {}, uncertainty {:.2f} m", found->inliers,
+               found->reference.value, std::sqrt(found->covariance.topLeftCorner<3, 3>().trace()));
+  return FoundPose{found->camera_from_world, found->covariance, attempt.found.has_value()};
 }
 
 void Stages::finish() {

@@ -43,7 +43,7 @@ class Stages {
   void close_loop(KeyframeId id);
   void write(MapCorrection correction);
   void publish(LocalMapView view);
-  std::optional<SE3> relocalize(const KeyframeFeatures& features);
+  std::optional<FoundPose> relocalize(const KeyframeFeatures& features);
   void stop();
 
   bool is_parallel() const { return options_.threads == Threads::kParallel; }
