@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Builds the tests with AddressSanitizer and UndefinedBehaviorSanitizer (or with ThreadSanitizer) and runs them.
 #   scripts/sanitize.sh [asan|tsan] [gtest filter]     without the runs over real sequences unless given
-# Each test program runs once as a whole: much quicker than a process a case when a process takes long to start.
+# Those of the command line are left out: they start a process each, and what is behind it is tested without it. Each
+# program runs once as a whole: much quicker than a process a case when a process takes long to start.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-asan}
@@ -14,9 +15,12 @@ export TSAN_OPTIONS=suppressions=$PWD/tests/tsan.supp
 export GTEST_FILTER=$filter GTEST_BRIEF=1
 
 cmake --preset "$preset" -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g1" >/dev/null
-cmake --build --preset "$preset"
-find "build/$preset" -type f -name 'test_*' -perm -u+x | sort |
+mapfile -t names < <(ninja -C "build/$preset" -t targets all | sed -n 's/^\(test_[a-z0-9_]*\): phony$/\1/p' | grep -v '^test_cli$' | sort)
+[ ${#names[@]} -gt 0 ] || { echo "no target is called test_*" >&2; exit 1; }
+cmake --build --preset "$preset" --target "${names[@]}"
+printf '%s\n' "${names[@]}" |
   xargs -P "$(nproc)" -I{} bash -c '
     start=$SECONDS
-    if "$1" </dev/null >"$1.log" 2>&1; then echo "$2: $(basename "$1") passed in $((SECONDS - start)) s"
-    else cat "$1.log"; echo "$2: $(basename "$1") FAILED"; exit 1; fi' run {} "$preset"
+    program=$(find "build/$2" -type f -name "$1" -perm -u+x)
+    if "$program" </dev/null >"$program.log" 2>&1; then echo "$2: $1 passed in $((SECONDS - start)) s"
+    else cat "$program.log"; echo "$2: $1 FAILED"; exit 1; fi' run {} "$preset"
