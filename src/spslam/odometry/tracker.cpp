@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLostVariance = 1e6;  // m^2 and rad^2: nothing is known
 constexpr double kCertain = 1e-12;     // m^2 and rad^2: where the world begins
+constexpr int kPreciseTries = 3;       // after which a place that does not tell the position will do
 constexpr double kGate = 22.46;        // chi^2 of 6 degrees of freedom, 0.1 %
 
 // Indices into map.landmarks, spread evenly over all of them: every n-th first, then the others.
@@ -176,7 +177,8 @@ std::optional<FoundPose> Tracker::starting_pose(const Frame& frame, TrackResult&
     std::optional<FoundPose> found =
         relocalize_(describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
     const bool precise = found && found->precise;
-    if (found && !precise) found = was_lost ? fuse_poses(reckoned, *found) : std::nullopt;
+    if (found && !precise)
+      found = was_lost && relocalizations_ > kPreciseTries ? fuse_poses(reckoned, *found) : std::nullopt;
     result.reason = !found    ? "not recognized in the map"
                     : precise ? "found in the map"
                               : "found in the map with dead reckoning";
