@@ -131,7 +131,7 @@ ablation() {
     ablation_row "\`tracker.$change\`" "tracker.$change"
   done
   for change in retriangulation.enabled=false adjustment.enabled=false adjustment.solver.loss=pseudo-huber \
-    adjustment.uniform_weights=false culling.enabled=false; do
+    adjustment.uniform_weights=false culling.enabled=false triangulation.enabled=true duplicates.enabled=true; do
     ablation_row "\`mapper.$change\`" "mapper.$change"
   done
   ablation_row "\`tracker.follow.identity=descriptor\`" tracker.follow.identity=descriptor
