@@ -4,6 +4,8 @@
 // pixel or two; aligning the host's patch says where it is, to a tenth.
 #pragma once
 
+#include <optional>
+
 #include "spslam/alignment/patch_aligner.h"
 #include "spslam/camera/stereo_rig.h"
 #include "spslam/map/types.h"
