@@ -104,5 +104,26 @@ TEST(System, OptionOutOfRangeIsRefused) {
   EXPECT_THROW(Slam(rig, SlamOptions{}), InputError);
 }
 
+// A boat that goes to and fro gets a map of the place, not of the time.
+TEST(System, TheMapGrowsWithTheAreaAndNotWithTheTime) {
+  SlamOptions options = sequential_options();
+  options.mapper.culling.revisit_gap = 12;
+  Slam slam(scene_rig(), options);
+  std::vector<std::size_t> keyframes, landmarks;
+  double time = 0;
+  for (int passage = 0; passage < 14; ++passage) {
+    for (int i = 0; i < kSceneFrames; ++i) {
+      StereoFrame pair = scene_pairs()[static_cast<std::size_t>(passage % 2 == 0 ? i : kSceneFrames - 1 - i)];
+      pair.timestamp = time += 0.1;
+      slam.track(pair);
+    }
+    keyframes.push_back(slam.keyframes().size());
+    landmarks.push_back(slam.landmark_count());
+  }
+  // The ten newest keyframes and the window are exempt from culling, so the first rounds fill it.
+  EXPECT_LE(keyframes[13], keyframes[6] + 3);
+  EXPECT_LE(static_cast<double>(landmarks[13]), 1.2 * static_cast<double>(landmarks[6]));
+}
+
 }  // namespace
 }  // namespace spslam
