@@ -71,5 +71,15 @@ TEST(Usage, HelpAndVersionGoToStdout) {
   EXPECT_EQ(help.err, "");
 }
 
+TEST(Usage, LocalizingNeedsAMapAndMakesNone) {
+  const ProcessResult without = run_spslam({"run", "nowhere", "-o", "out", "--localize"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_THAT(without.err, testing::HasSubstr("--load-map"));
+  const ProcessResult saving =
+      run_spslam({"run", "nowhere", "-o", "out", "--localize", "--load-map", "a", "--save-map", "b"});
+  EXPECT_EQ(saving.exit_code, 2);
+  EXPECT_THAT(saving.err, testing::HasSubstr("--save-map"));
+}
+
 }  // namespace
 }  // namespace spslam
