@@ -15,13 +15,14 @@
 #   SPSLAM   the program (build/release/bin/spslam)
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
+. scripts/measuring.sh
 read -r -a scenes <<<"${SCENES:-bank bridge_turn canal fog_traffic glare lake_loop open_water rain}"
 read -r -a presets <<<"${PRESETS:-baseline sp-slam}"
 seeds=${SEEDS:-5}
 frames=${FRAMES:-150}
 output=${OUTPUT:-out/ablation}
 program=${SPSLAM:-build/release/bin/spslam}
-[ -x "$program" ] || { echo "there is no $program; scripts/build.sh release --target spslam_cli makes it" >&2; exit 1; }
+need_program "$program"
 length=()
 [ "$frames" -eq 0 ] || length=(--frames "$frames")
 

@@ -14,13 +14,14 @@
 #   SPSLAM   the program (build/release/bin/spslam)
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
+. scripts/measuring.sh
 read -r -a scenes <<<"${SCENES:-bank bridge_turn canal fog_traffic glare lake_loop open_water rain}"
 read -r -a light <<<"${LIGHT:-passage=1 sky.sun_azimuth=200 sky.sun_elevation=55 sky.sun=0.5 motion.wave_height=0.2}"
 seed=${SEED:-1}
 frames=${FRAMES:-150}
 output=${OUTPUT:-out/localization}
 program=${SPSLAM:-build/release/bin/spslam}
-[ -x "$program" ] || { echo "there is no $program; scripts/build.sh release --target spslam_cli makes it" >&2; exit 1; }
+need_program "$program"
 
 simulate() {  # SCENE FOLDER [--set KEY=VALUE ...]
   local scene=$1 folder=$2
@@ -56,7 +57,7 @@ for i in "${!scenes[@]}"; do
   placed=-
   if [ "$data" != "$wrong" ]; then
     "$program" run "$data.other" --sequential --quiet --samples 0 --output "$data.lost" --overwrite --load-map "$wrong.map" --localize
-    placed=$(grep -c -v '^#' "$data.lost/trajectory_tum.txt" || true)
+    placed=$(awk '!/^#/ { ++count } END { print count + 0 }' "$data.lost/trajectory_tum.txt")
   fi
   read -r _ map_rmse _ <<<"$(errors "$data.run" "$data" "$data")"
   read -r share rmse most <<<"$(errors "$data.found" "$data" "$data.other")"

@@ -12,17 +12,14 @@
 #   SPSLAM   the program (build/release/bin/spslam)
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
+. scripts/measuring.sh
 read -r -a scenes <<<"${SCENES:-bridge_turn lake_loop}"
 seeds=${SEEDS:-5}
 output=${OUTPUT:-out/loops}
 program=${SPSLAM:-build/release/bin/spslam}
-[ -x "$program" ] || { echo "there is no $program; scripts/build.sh release --target spslam_cli makes it" >&2; exit 1; }
+need_program "$program"
 length=()
 [ -z "${FRAMES:-}" ] || length=(--frames "$FRAMES")
-
-ate_of() {  # RUN
-  awk '/"ate_m"/ { inside = 1 } inside && /"rmse"/ { sub(/,$/, "", $2); print $2; exit }' "$1/metrics.json"
-}
 
 # "closed false" of a run: the newer camera's place in the older one's axes, against the true poses (KITTI rows and their times).
 judge() {  # DATA RUN

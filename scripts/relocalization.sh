@@ -13,17 +13,14 @@
 #   SPSLAM   the program (build/release/bin/spslam)
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
+. scripts/measuring.sh
 read -r -a scenes <<<"${SCENES:-bank bridge_turn canal fog_traffic glare lake_loop open_water rain}"
 seed=${SEED:-1}
 frames=${FRAMES:-150}
 first=${FIRST:-60}
 output=${OUTPUT:-out/localization}
 program=${SPSLAM:-build/release/bin/spslam}
-[ -x "$program" ] || { echo "there is no $program; scripts/build.sh release --target spslam_cli makes it" >&2; exit 1; }
-
-ate_of() {  # RUN
-  awk '/"ate_m"/ { inside = 1 } inside && /"rmse"/ { sub(/,$/, "", $2); print $2; exit }' "$1/metrics.json"
-}
+need_program "$program"
 
 # Usable frames after the gap until one is tracked, and its reason.
 found_after() {  # RUN

@@ -13,12 +13,13 @@
 #   SPSLAM     the program (build/release/bin/spslam)
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
+. scripts/measuring.sh
 data=${DATA:-../shared/data}
 runs=${RUNS:-1}
 output=${OUTPUT:-out/results}
 program=${SPSLAM:-build/release/bin/spslam}
 read -r -a known <<<"${SEQUENCES:-nearshore_bank nearshore_loop kitti_06 kitti_raw euroc_still}"
-[ -x "$program" ] || { echo "there is no $program; scripts/build.sh release --target spslam_cli makes it" >&2; exit 1; }
+need_program "$program"
 sequences=()
 for name in "${known[@]}"; do [ ! -d "$data/$name" ] || sequences+=("$name"); done
 [ ${#sequences[@]} -gt 0 ] || { echo "none of ${known[*]} is in $data; DATA=FOLDER names another" >&2; exit 1; }

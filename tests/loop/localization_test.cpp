@@ -13,8 +13,8 @@ namespace {
 
 const SE3 kStep{so3_exp({0, 0.01, 0}), {0, 0.02, -0.2}};  // camera_from_camera before it
 
-MapPose pose_at(const SE3& pose, double sigma = 0.05, double turn = 0.005) {
-  MapPose out{pose, Matrix6d::Zero()};
+UncertainPose pose_at(const SE3& pose, double sigma = 0.05, double turn = 0.005) {
+  UncertainPose out{pose, Matrix6d::Zero()};
   out.covariance.diagonal().head<3>().setConstant(sigma * sigma);
   out.covariance.diagonal().tail<3>().setConstant(turn * turn);
   return out;
@@ -83,7 +83,7 @@ TEST(LocalizationFilter, WhatIsNotFiniteChangesNothing) {
   LocalizationFilter filter({});
   filter.add(pose_at({}));
   filter.add(pose_at({}));
-  MapPose broken = pose_at({});
+  UncertainPose broken = pose_at({});
   broken.camera_from_world.translation.x() = NAN;
   EXPECT_EQ(filter.add(broken), FilterAnswer::kPending);
   EXPECT_TRUE(filter.estimate()->camera_from_world.is_finite());
@@ -106,11 +106,11 @@ TEST(LocalizationFilter, ItsCovarianceIsThatOfItsError) {
       truth = kStep * truth;
       filter.move(SE3::exp(draw(random, drift_covariance(kStep, options))) * kStep);
       if (i % 5 != 0) continue;
-      MapPose measured = pose_at(truth);
+      UncertainPose measured = pose_at(truth);
       measured.camera_from_world = SE3::exp(draw(random, measured.covariance)) * truth;
       filter.add(measured);
     }
-    const MapPose known = *filter.estimate();
+    const UncertainPose known = *filter.estimate();
     const Vector6d error = (known.camera_from_world * truth.inverse()).log();
     sum += error.dot(known.covariance.ldlt().solve(error));
   }

@@ -108,24 +108,5 @@ TEST(Tracker, ImagesOfAnotherSizeAreNamed) {
   EXPECT_NE(tracker.track({0, wide, wide, ""}).result.reason.find("640 x 240"), std::string::npos);
 }
 
-// Two poses of the same camera: what is known along one axis from the one and along another from the other.
-TEST(FusePoses, TakesFromEachWhatItKnows) {
-  FoundPose a, b;
-  Vector6d sigma_a, sigma_b;
-  sigma_a << 0.01, 1, 1, 0.01, 0.01, 0.01;
-  sigma_b << 1, 0.01, 1, 0.01, 0.01, 0.01;
-  a.covariance = sigma_a.cwiseAbs2().asDiagonal(), b.covariance = sigma_b.cwiseAbs2().asDiagonal();
-  a.camera_from_world.translation = {0.3, 0.9, 0.5};
-  b.camera_from_world.translation = {1.1, -0.2, -0.5};
-  a.precise = b.precise = false;
-  const std::optional<FoundPose> fused = fuse_poses(a, b);
-  ASSERT_TRUE(fused);
-  EXPECT_LT((fused->camera_from_world.translation - Eigen::Vector3d(0.3, -0.2, 0)).norm(), 1e-3);
-  EXPECT_NEAR(std::sqrt(fused->covariance(2, 2)), std::sqrt(0.5), 1e-3);
-  EXPECT_FALSE(fused->precise);
-  b.camera_from_world.translation.z() = 9;
-  EXPECT_FALSE(fuse_poses(a, b)) << "they contradict each other";
-}
-
 }  // namespace
 }  // namespace spslam

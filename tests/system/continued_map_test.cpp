@@ -4,50 +4,12 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <opencv2/imgproc.hpp>
-
-#include "spslam/system/map_file.h"
 #include "system/scene_run.h"
 
 namespace spslam {
 namespace {
 
 using namespace test;
-
-StereoFrame at_time(StereoFrame pair, double timestamp) {
-  pair.timestamp = timestamp;
-  return pair;
-}
-
-// Another place that looks as real: the scene in a mirror. New images, for those of the pair are shared.
-StereoFrame mirrored(const StereoFrame& pair, double timestamp) {
-  StereoFrame out;
-  out.timestamp = timestamp;
-  cv::flip(pair.right, out.left, 1);
-  cv::flip(pair.left, out.right, 1);
-  return out;
-}
-
-// The map of a run over all pairs, after a way through a file.
-Map saved_and_loaded() {
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / "spslam_continued_map_test.map";
-  {
-    Slam slam(scene_rig(), sequential_options());
-    for (const StereoFrame& pair : scene_pairs()) slam.track(pair);
-    slam.finish();
-    slam.save(path);
-  }
-  SavedMap saved = load_map(path);
-  std::filesystem::remove(path);
-  check_same_rig(saved.rig, scene_rig());
-  return std::move(saved.map);
-}
-
-double distance_from_truth(const TrackResult& result, int index) {
-  return (result.world_from_camera.translation - scene_pose(index).translation).norm();
-}
 
 TEST(ContinuedMap, FramesAreFoundAndTrackedInTheWorldOfTheMap) {
   Slam slam(scene_rig(), sequential_options(), saved_and_loaded());
@@ -58,7 +20,7 @@ TEST(ContinuedMap, FramesAreFoundAndTrackedInTheWorldOfTheMap) {
     const TrackResult result = slam.track(at_time(scene_pairs()[static_cast<std::size_t>(i)], time += 0.1));
     ASSERT_EQ(result.status, TrackStatus::kTracking) << i << ": " << result.reason;
     EXPECT_EQ(result.reason, i == 6 ? "found in the map" : "");
-    EXPECT_LT(distance_from_truth(result, i), 0.05) << i;
+    EXPECT_LT(distance_from_truth(result.world_from_camera, i), 0.05) << i;
   }
   slam.finish();
   EXPECT_GT(slam.keyframes().size(), known);
@@ -89,7 +51,7 @@ TEST(Relocalization, ALostCameraIsFoundWhereItIsAndNotWhereItsVelocityLed) {
     result = slam.track(at_time(scene_pairs()[kPlace], time += 0.1));
   EXPECT_EQ(result.status, TrackStatus::kTracking);
   EXPECT_EQ(result.reason, "found in the map");
-  EXPECT_LT(distance_from_truth(result, kPlace), 0.05);
+  EXPECT_LT(distance_from_truth(result.world_from_camera, kPlace), 0.05);
 }
 
 // Frames that could not be seen lie between the last one before and the first one after.
@@ -157,7 +119,7 @@ TEST(Relocalization, ASubmapIsJoinedByALoop) {
     result = slam.track(at_time(scene_pairs()[static_cast<std::size_t>(shown.back())], time += 0.1));
     if (i == 0) {
       EXPECT_THAT(result.reason, testing::HasSubstr("begun anew"));
-      EXPECT_GT(distance_from_truth(result, 0), 0.5) << "too near for this test";
+      EXPECT_GT(distance_from_truth(result.world_from_camera, 0), 0.5) << "too near for this test";
     }
   }
   slam.finish();

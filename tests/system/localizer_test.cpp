@@ -4,10 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include <opencv2/imgproc.hpp>
-
 #include "spslam/system/map_encoding.h"
-#include "spslam/system/map_file.h"
 #include "system/scene_run.h"
 
 namespace spslam {
@@ -16,31 +13,8 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-StereoFrame at_time(StereoFrame pair, double timestamp) {
-  pair.timestamp = timestamp;
-  return pair;
-}
-
-StereoFrame mirrored(const StereoFrame& pair, double timestamp) {
-  StereoFrame out;
-  out.timestamp = timestamp;
-  cv::flip(pair.right, out.left, 1);
-  cv::flip(pair.left, out.right, 1);
-  return out;
-}
-
 const Map& known_map() {
-  static const Map map = [] {
-    const std::filesystem::path path =
-        std::filesystem::path(testing::TempDir()) / "spslam_localizer_test.map";
-    Slam slam(scene_rig(), sequential_options());
-    for (const StereoFrame& pair : scene_pairs()) slam.track(pair);
-    slam.finish();
-    slam.save(path);
-    Map loaded = load_map(path).map;
-    std::filesystem::remove(path);
-    return loaded;
-  }();
+  static const Map map = saved_and_loaded();
   return map;
 }
 
@@ -50,10 +24,6 @@ SlamOptions localizing(Threads threads = Threads::kSequential) {
   options.localization.enabled = true;
   options.localization.interval = 2;
   return options;
-}
-
-double distance_from_truth(const SE3& world_from_camera, int index) {
-  return (world_from_camera.translation - scene_pose(index).translation).norm();
 }
 
 TEST(Localizer, SaysWhereInTheMapTheCameraIs) {
@@ -86,7 +56,8 @@ TEST(Localizer, TheMapStaysAsItIs) {
   for (int i = 5; i < kSceneFrames; ++i)
     slam.track(at_time(scene_pairs()[static_cast<std::size_t>(i)], 100 + 0.1 * i));
   slam.finish();
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "spslam_localizer_after.map";
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / ("spslam_localizer." + std::to_string(getpid()) + ".map");
   slam.save(path);
   const Map after = load_map(path).map;
   std::filesystem::remove(path);

@@ -3,7 +3,14 @@
 // What the tests of whole runs share.
 #pragma once
 
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+
 #include "spslam/eval/evaluation.h"
+#include "spslam/system/map_file.h"
 #include "spslam/system/slam.h"
 #include "system/synthetic_scene.h"
 
@@ -30,6 +37,41 @@ inline Trajectory poses_of(const Slam& slam) {
   for (const TrajectoryPose& pose : slam.trajectory())
     trajectory.push_back({pose.timestamp, pose.world_from_camera});
   return trajectory;
+}
+
+inline StereoFrame at_time(StereoFrame pair, double timestamp) {
+  pair.timestamp = timestamp;
+  return pair;
+}
+
+// Another place that looks as real: the scene in a mirror. New images, for those of the pair are shared.
+inline StereoFrame mirrored(const StereoFrame& pair, double timestamp) {
+  StereoFrame out;
+  out.timestamp = timestamp;
+  cv::flip(pair.right, out.left, 1);
+  cv::flip(pair.left, out.right, 1);
+  return out;
+}
+
+// The map of a run over all pairs, after a way through a file.
+inline Map saved_and_loaded() {
+  // Cases run side by side, in processes of their own.
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / ("spslam_scene_run." + std::to_string(getpid()) + ".map");
+  {
+    Slam slam(scene_rig(), sequential_options());
+    for (const StereoFrame& pair : scene_pairs()) slam.track(pair);
+    slam.finish();
+    slam.save(path);
+  }
+  SavedMap saved = load_map(path);
+  std::filesystem::remove(path);
+  check_same_rig(saved.rig, scene_rig());
+  return std::move(saved.map);
+}
+
+inline double distance_from_truth(const SE3& world_from_camera, int index) {
+  return (world_from_camera.translation - scene_pose(index).translation).norm();
 }
 
 struct SceneRun {

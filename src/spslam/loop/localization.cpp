@@ -24,15 +24,10 @@ Matrix6d drift_covariance(const SE3& motion, const LocalizationOptions& options)
   return out;
 }
 
-MapPose LocalizationFilter::moved(const MapPose& pose, const SE3& motion, const Matrix6d& noise) const {
-  const Matrix6d adjoint = motion.adjoint();
-  return {(motion * pose.camera_from_world).normalized(),
-          adjoint * pose.covariance * adjoint.transpose() + drift_covariance(motion, options_) + noise};
-}
-
-void LocalizationFilter::move(const SE3& present_from_before, const Matrix6d& noise) {
-  if (estimate_) estimate_ = moved(*estimate_, present_from_before, noise);
-  if (pending_) pending_ = moved(*pending_, present_from_before, noise);
+void LocalizationFilter::move(const SE3& present_from_before) {
+  const Matrix6d drift = drift_covariance(present_from_before, options_);
+  if (estimate_) estimate_ = moved(*estimate_, present_from_before, drift);
+  if (pending_) pending_ = moved(*pending_, present_from_before, drift);
 }
 
 Matrix6d LocalizationFilter::map_covariance() const {
@@ -42,24 +37,15 @@ Matrix6d LocalizationFilter::map_covariance() const {
   return out;
 }
 
-bool LocalizationFilter::agree(const MapPose& a, const MapPose& b) const {
-  const Vector6d off = (a.camera_from_world * b.camera_from_world.inverse()).log();
-  const Matrix6d covariance = a.covariance + b.covariance + map_covariance();
-  return off.dot(covariance.ldlt().solve(off)) <= options_.gate;
+bool LocalizationFilter::agree(const UncertainPose& a, const UncertainPose& b) const {
+  return squared_distance(a, b, map_covariance()) <= options_.gate;
 }
 
-FilterAnswer LocalizationFilter::add(const MapPose& measured) {
+FilterAnswer LocalizationFilter::add(const UncertainPose& measured) {
   if (!measured.camera_from_world.is_finite() || !measured.covariance.allFinite())
     return FilterAnswer::kPending;
   if (estimate_ && agree(*estimate_, measured)) {
-    const Vector6d innovation = (measured.camera_from_world * estimate_->camera_from_world.inverse()).log();
-    const Matrix6d gain =
-        (estimate_->covariance + measured.covariance).ldlt().solve(estimate_->covariance).transpose();
-    // Joseph's form stays symmetric and positive.
-    const Matrix6d rest = Matrix6d::Identity() - gain;
-    estimate_->camera_from_world = (SE3::exp(gain * innovation) * estimate_->camera_from_world).normalized();
-    estimate_->covariance =
-        rest * estimate_->covariance * rest.transpose() + gain * measured.covariance * gain.transpose();
+    estimate_ = fused(*estimate_, measured);
     pending_.reset();
     agreeing_ = 0;
     return FilterAnswer::kUsed;
@@ -73,9 +59,9 @@ FilterAnswer LocalizationFilter::add(const MapPose& measured) {
   return FilterAnswer::kRestarted;
 }
 
-std::optional<MapPose> LocalizationFilter::estimate() const {
+std::optional<UncertainPose> LocalizationFilter::estimate() const {
   if (!estimate_) return std::nullopt;
-  MapPose out = *estimate_;
+  UncertainPose out = *estimate_;
   out.covariance += map_covariance();
   if (!(out.position_sigma() <= options_.max_uncertainty)) return std::nullopt;
   return out;

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
 // Where in a known map the camera is: a Kalman filter over its pose, moved on by odometry and measured by
-// places recognized (relocalizer.h). The error is a left perturbation of camera_from_world, so the covariance
-// is in the camera's own axes. (Sola, Deray, Atchuthan, "A micro Lie theory", 2018.)
+// places recognized (relocalizer.h).
 #pragma once
 
 #include <optional>
 
 #include "spslam/base/options.h"
-#include "spslam/base/se3.h"
+#include "spslam/base/uncertain_pose.h"
 #include "spslam/map/map.h"
 
 namespace spslam {
@@ -23,7 +22,7 @@ struct LocalizationOptions {
   double correlation = 10;
   double map_sigma = 0.05;
   double map_turn_sigma = 0.2;
-  double gate = 22.46;
+  double gate = kPoseGate;
   double max_uncertainty = 1;
 
   template <class Self, class Visitor>
@@ -49,14 +48,6 @@ struct LocalizationOptions {
   }
 };
 
-// A pose in the map and its covariance, of a left perturbation of camera_from_world, (m, rad).
-struct MapPose {
-  SE3 camera_from_world;
-  Matrix6d covariance = Matrix6d::Identity();
-
-  double position_sigma() const { return std::sqrt(covariance.topLeftCorner<3, 3>().trace()); }
-};
-
 enum class FilterAnswer {
   kPending,   // nothing is known yet, or it contradicts what is: it waits for others that agree
   kUsed,      // it agrees and has corrected the estimate
@@ -67,25 +58,24 @@ class LocalizationFilter {
  public:
   explicit LocalizationFilter(const LocalizationOptions& options) : options_(options) {}
 
-  // The camera has moved. `noise`: of the motion beyond the drift of odometry, as while it coasts.
-  void move(const SE3& present_from_before, const Matrix6d& noise = Matrix6d::Zero());
+  // The camera has moved, as odometry says.
+  void move(const SE3& present_from_before);
   // A place was recognized; both are the camera's of now.
-  FilterAnswer add(const MapPose& measured);
+  FilterAnswer add(const UncertainPose& measured);
   // Odometry was broken off: nothing is known any more.
   void forget() { estimate_.reset(), pending_.reset(), agreeing_ = 0; }
 
   // What is known, the map's own error included; nothing until found, or once it is too uncertain.
-  std::optional<MapPose> estimate() const;
+  std::optional<UncertainPose> estimate() const;
 
  private:
-  bool agree(const MapPose& a, const MapPose& b) const;
+  bool agree(const UncertainPose& a, const UncertainPose& b) const;
   Matrix6d map_covariance() const;
-  MapPose moved(const MapPose& pose, const SE3& motion, const Matrix6d& noise) const;
 
   LocalizationOptions options_;
-  std::optional<MapPose> estimate_;
-  std::optional<MapPose> pending_;  // the last attempt that did not agree
-  int agreeing_ = 0;                // attempts in a row that agree with each other on it
+  std::optional<UncertainPose> estimate_;
+  std::optional<UncertainPose> pending_;  // the last attempt that did not agree
+  int agreeing_ = 0;                      // attempts in a row that agree with each other on it
 };
 
 // Covariance of odometry's error over a motion, of a left perturbation of it.

@@ -12,7 +12,6 @@ namespace {
 constexpr double kLostVariance = 1e6;  // m^2 and rad^2: nothing is known
 constexpr double kCertain = 1e-12;     // m^2 and rad^2: where the world begins
 constexpr int kPreciseTries = 3;       // after which a place that does not tell the position will do
-constexpr double kGate = 22.46;        // chi^2 of 6 degrees of freedom, 0.1 %
 
 // Indices into map.landmarks, spread evenly over all of them: every n-th first, then the others.
 std::vector<int> scouts_first(std::size_t count, std::size_t scouts) {
@@ -41,17 +40,6 @@ int count_inliers(const ActiveMap& map, const std::vector<Sighting>& sightings, 
 }
 
 }  // namespace
-
-std::optional<FoundPose> fuse_poses(const FoundPose& a, const FoundPose& b) {
-  const Vector6d off = (b.camera_from_world * a.camera_from_world.inverse()).log();
-  const auto sum = Matrix6d(a.covariance + b.covariance).ldlt();
-  if (!(off.dot(sum.solve(off)) <= kGate)) return std::nullopt;
-  const Matrix6d gain = sum.solve(a.covariance).transpose();
-  const Matrix6d rest = Matrix6d::Identity() - gain;
-  FoundPose out{(SE3::exp(gain * off) * a.camera_from_world).normalized(), {}, a.precise || b.precise};
-  out.covariance = rest * a.covariance * rest.transpose() + gain * b.covariance * gain.transpose();
-  return out;
-}
 
 Tracker::Tracker(const StereoRig& rig, const TrackerOptions& options)
     : options_(options), front_end_(options) {
@@ -165,24 +153,28 @@ bool Tracker::is_sound(const MotionEstimate& motion, const std::vector<Sighting>
 
 // Where tracking begins: at the origin, or where the map knows the frame to be, or, after a loss in which
 // that has failed often enough, where the last known velocity has carried. Nothing: not yet.
-std::optional<FoundPose> Tracker::starting_pose(const Frame& frame, TrackResult& result) {
+std::optional<UncertainPose> Tracker::starting_pose(const Frame& frame, TrackResult& result) {
   const bool was_lost = status_ == TrackStatus::kLost;
-  if (!was_lost && !must_localize_) return FoundPose{{}, kCertain * Matrix6d::Identity()};
-  FoundPose reckoned;
+  if (!was_lost && !must_localize_) return UncertainPose{{}, kCertain * Matrix6d::Identity()};
+  UncertainPose reckoned;
   if (was_lost)
     reckoned = {motion_.predict(frame.timestamp),
                 motion_covariance_ + coasting_covariance(frame.timestamp - motion_.last_timestamp())};
   if (relocalize_ && (must_localize_ || relocalizations_ < options_.state.relocalization_frames)) {
     ++relocalizations_;
-    std::optional<FoundPose> found =
+    const std::optional<FoundPose> found =
         relocalize_(describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
-    const bool precise = found && found->precise;
-    if (found && !precise)
-      found = was_lost && relocalizations_ > kPreciseTries ? fuse_poses(reckoned, *found) : std::nullopt;
-    result.reason = !found    ? "not recognized in the map"
-                    : precise ? "found in the map"
-                              : "found in the map with dead reckoning";
-    return found;
+    if (found && found->precise) {
+      result.reason = "found in the map";
+      return found->pose;
+    }
+    if (found && was_lost && relocalizations_ > kPreciseTries &&
+        squared_distance(reckoned, found->pose) <= kPoseGate) {
+      result.reason = "found in the map with dead reckoning";
+      return fused(reckoned, found->pose);
+    }
+    result.reason = "not recognized in the map";
+    return std::nullopt;
   }
   result.reason = "begun anew where the last known velocity led";
   return reckoned;
@@ -197,7 +189,7 @@ void Tracker::continue_map(KeyframeId next_keyframe, LandmarkId next_landmark) {
 // The first keyframe, or a new one after everything was lost.
 void Tracker::begin(const Frame& frame, TrackResult& result) {
   const bool was_lost = status_ == TrackStatus::kLost;
-  const std::optional<FoundPose> start = starting_pose(frame, result);
+  const std::optional<UncertainPose> start = starting_pose(frame, result);
   if (!start) {
     if (was_lost) coast(result.reason, result);
     return;

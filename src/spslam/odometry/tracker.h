@@ -5,6 +5,7 @@
 // when it leaves the window.
 #pragma once
 
+#include "spslam/base/uncertain_pose.h"
 #include "spslam/odometry/active_map.h"
 #include "spslam/odometry/far_points.h"
 #include "spslam/odometry/frame_problem.h"
@@ -34,16 +35,11 @@ struct TrackerOutput {
 // Where in the map a frame was taken, by what it looks like. The place is sure; if it is not `precise`, all
 // is far there and the pose alone is no beginning.
 struct FoundPose {
-  SE3 camera_from_world;
-  Matrix6d covariance = Matrix6d::Identity();  // of a left perturbation, (m, rad)
+  UncertainPose pose;
   bool precise = true;
 };
 // Nothing if it is not surely there.
 using Relocalize = std::function<std::optional<FoundPose>(const KeyframeFeatures&)>;
-
-// Both together, each with the covariance of a left perturbation; nothing if they contradict each other (6
-// degrees of freedom, 0.1 %).
-std::optional<FoundPose> fuse_poses(const FoundPose& a, const FoundPose& b);
 
 class Tracker {
  public:
@@ -87,7 +83,7 @@ class Tracker {
   bool is_sound(const MotionEstimate& motion, const std::vector<Sighting>& sightings,
                 TrackResult& result) const;
   void begin(const Frame& frame, TrackResult& result);
-  std::optional<FoundPose> starting_pose(const Frame& frame, TrackResult& result);
+  std::optional<UncertainPose> starting_pose(const Frame& frame, TrackResult& result);
   void coast(const std::string& reason, TrackResult& result);
   Matrix6d coasting_covariance(double seconds) const;
   void close_gap(double timestamp, const SE3& measured);

@@ -43,7 +43,7 @@ TrackResult Localizer::place(const TrackerOutput& odometry) {
   const SE3 camera_from_session = result.world_from_camera.inverse();
   if (!frames_.empty()) filter_.move(camera_from_session * frames_.back().camera_from_session.inverse());
   if (result.status == TrackStatus::kLost) {
-    if (frames_.empty() || frames_.back().stretch == stretch_) ++stretch_;
+    ++stretch_;
     filter_.forget();
   }
   frames_.push_back({result.frame, result.timestamp, result.status, camera_from_session, stretch_, {}});
@@ -98,18 +98,15 @@ void Localizer::take(const Answer& answer) {
   const PlacedFrame& now = frames_.back();
   if (then.stretch != now.stretch || now.status == TrackStatus::kLost) return;
   const SE3 motion = now.camera_from_session * then.camera_from_session.inverse();
-  const Matrix6d adjoint = motion.adjoint();
-  const MapPose moved{(motion * answer.pose.camera_from_world).normalized(),
-                      adjoint * answer.pose.covariance * adjoint.transpose() +
-                          drift_covariance(motion, options_.localization)};
-  if (filter_.add(moved) != FilterAnswer::kRestarted) return;
-  spdlog::info("frame {}: found in the map, uncertainty {:.2f} m", now.frame.value, moved.position_sigma());
+  const UncertainPose present = moved(answer.pose, motion, drift_covariance(motion, options_.localization));
+  if (filter_.add(present) != FilterAnswer::kRestarted) return;
+  spdlog::info("frame {}: found in the map, uncertainty {:.2f} m", now.frame.value, present.position_sigma());
   place_backwards();
 }
 
 // Frames of this stretch from before the camera was found.
 void Localizer::place_backwards() {
-  const std::optional<MapPose> known = filter_.estimate();
+  const std::optional<UncertainPose> known = filter_.estimate();
   if (!known) return;
   const SE3 session_from_world = frames_.back().camera_from_session.inverse() * known->camera_from_world;
   for (auto it = frames_.rbegin(); it != frames_.rend() && it->stretch == stretch_; ++it) {

@@ -48,7 +48,7 @@ class Localizer {
   };
   struct Answer {
     std::size_t index = 0;
-    MapPose pose;
+    UncertainPose pose;
   };
 
   void ask(std::shared_ptr<const KeyframeFeatures> features);

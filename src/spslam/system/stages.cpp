@@ -137,7 +137,7 @@ std::optional<FoundPose> Stages::relocalize(const KeyframeFeatures& features) {
   }
   spdlog::info("found in the map: {} points agree with keyframe {}, uncertainty {:.2f} m", found->inliers,
                found->reference.value, std::sqrt(found->covariance.topLeftCorner<3, 3>().trace()));
-  return FoundPose{found->camera_from_world, found->covariance, attempt.found.has_value()};
+  return FoundPose{{found->camera_from_world, found->covariance}, attempt.found.has_value()};
 }
 
 void Stages::finish() {
