@@ -30,6 +30,7 @@ svg{width:100%;height:auto;display:block}
 .line.truth{stroke-width:3;stroke-opacity:.6}.dot{stroke:none}.dot.truth{fill:var(--truth)}.dot.estimate{fill:var(--estimate)}
 .lost{fill:var(--far);fill-opacity:.22}.coasting{fill:#d29922;fill-opacity:.25}.initializing{fill:var(--dim);fill-opacity:.2}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums}th,td{padding:4px 14px 4px 0;text-align:right;white-space:nowrap}
+.facts td:last-child{white-space:normal;overflow-wrap:anywhere}
 th:first-child{text-align:left;font-weight:500}tr.head th{color:var(--dim);font-weight:500;border-bottom:1px solid var(--rule)}
 .images{display:grid;grid-template-columns:repeat(auto-fit,minmax(300px,1fr));gap:14px}figure{margin:0}img{width:100%;border-radius:6px}
 figcaption{color:var(--dim);font-size:13px}pre{font-size:12px;overflow-x:auto}
@@ -225,7 +226,7 @@ std::string html_report(const ReportInput& input) {
   html += section("Near (green), far (red) and mirrored (orange) features", images(input.images));
   html += section("Features of each frame", feature_chart(input.frames));
   html += "<div class=\"two\">" + section("Time a frame", timing_table(input.timing)) +
-          section("The run", facts_table(input.facts)) + "</div>\n";
+          section("The run", "<div class=\"facts\">" + facts_table(input.facts) + "</div>") + "</div>\n";
   if (!input.config.empty())
     html += "<section><details><summary>Effective options</summary><pre>" + html_escaped(input.config) +
             "</pre></details></section>\n";
