@@ -47,7 +47,7 @@ TrackerOutput Stages::track(const StereoFrame& pair) {
     std::swap(view, view_);
   }
   if (view.revision > 0) tracker_.adopt(view);
-  tracker_.set_mapper_busy(!proposals_.empty());
+  tracker_.set_mapper_busy(mapper_is_behind());
   TrackerOutput output = tracker_.track(pair);
   take(output);
   return output;
@@ -68,7 +68,7 @@ void Stages::insert(KeyframeProposal proposal) {
   const KeyframeId id = proposal.keyframe.id;
   {
     const std::scoped_lock lock(map_mutex_);
-    MappingResult done = mapper_.insert(std::move(proposal), [this] { return !proposals_.empty(); });
+    MappingResult done = mapper_.insert(std::move(proposal), [this] { return mapper_is_behind(); });
     for (const KeyframeId gone : done.culled) closer_.erase(gone);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     mapping_log_.push_back({id, time.count(), done.retriangulated, done.outliers, done.culled_landmarks,

@@ -46,6 +46,8 @@ class Stages {
   std::optional<FoundPose> relocalize(const KeyframeFeatures& features);
   void stop();
 
+  // One that waits is the rule when tracking runs as fast as it can, and is worth an adjustment done in full.
+  bool mapper_is_behind() const { return proposals_.size() > 1; }
   bool is_parallel() const { return options_.threads == Threads::kParallel; }
 
   StereoRig rig_;
@@ -53,7 +55,7 @@ class Stages {
   Tracker tracker_;
   bool is_finished_ = false;
   std::vector<FramePose> settled_;
-  BoundedQueue<KeyframeProposal> proposals_{8};
+  BoundedQueue<KeyframeProposal> proposals_{4};
   BoundedQueue<KeyframeId> described_{64};
   mutable std::mutex map_mutex_;  // guards what follows
   LocalMapper mapper_;
