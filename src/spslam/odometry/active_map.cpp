@@ -16,12 +16,8 @@ struct DepthEvidence {
 
 DepthEvidence depth_evidence(const ActiveMap& map, const Landmark& landmark, const WindowFrame& frame,
                              const Sighting& sighting, const SolverOptions& options) {
-  const SE3 camera_from_host =
-      frame.camera_from_world * map.hosts.at(landmark.host).camera_from_world.inverse();
-  Linearized at =
-      linearize(map.rig, camera_from_host, landmark.bearing, landmark.inverse_depth, sighting.measured);
+  const Linearized at = linearize(map, landmark, frame.camera_from_world, sighting);
   if (!at.in_front) return {};
-  at.residual.z() += map.disparity_offset.at(map.rig, sighting.measured.x(), sighting.measured.y());
   const Eigen::Vector3d r = at.residual.cwiseProduct(sighting.inverse_sigma);
   const double position = robust(options.loss, options.loss_scale, r.head<2>().squaredNorm()).weight;
   const double disparity = robust(options.loss, options.loss_scale, r.z() * r.z()).weight;
@@ -70,6 +66,16 @@ int ActiveMap::index_of(LandmarkId id) const {
   const auto it = std::lower_bound(landmarks.begin(), landmarks.end(), id,
                                    [](const ActiveLandmark& a, LandmarkId b) { return a.landmark.id < b; });
   return it != landmarks.end() && it->landmark.id == id ? static_cast<int>(it - landmarks.begin()) : -1;
+}
+
+Linearized linearize(const ActiveMap& map, const Landmark& landmark, const SE3& camera_from_world,
+                     const Sighting& sighting) {
+  const SE3 camera_from_host = camera_from_world * map.hosts.at(landmark.host).camera_from_world.inverse();
+  Linearized at =
+      linearize(map.rig, camera_from_host, landmark.bearing, landmark.inverse_depth, sighting.measured);
+  if (at.in_front)
+    at.residual.z() += map.disparity_offset.at(map.rig, sighting.measured.x(), sighting.measured.y());
+  return at;
 }
 
 void shorten_window(ActiveMap& map, int frames, const SolverOptions& options) {

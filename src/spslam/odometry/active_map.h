@@ -3,6 +3,7 @@
 // What the tracker keeps: the landmarks it follows, their host keyframes, and a short window of frames.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <vector>
@@ -12,11 +13,17 @@
 
 namespace spslam {
 
+// What the frames after its host's said of a new landmark (trial.h).
+enum class Verdict : std::uint8_t { kOpen, kProven, kRefuted };
+
 struct ActiveLandmark {
   Landmark landmark;
   // What frames that have left the window said of the inverse depth.
   double prior_inverse_depth = 0, prior_information = 0;
   int missed = 0;  // usable frames in a row in which it was not found
+  Verdict verdict = Verdict::kOpen;
+  bool on_trial = false;          // says nothing of the motion before it is proven
+  int agreed = 0, disagreed = 0;  // sightings, while the verdict is open
 };
 
 struct WindowFrame {
@@ -37,6 +44,10 @@ struct ActiveMap {
   // Index of a landmark, or -1.
   int index_of(LandmarkId id) const;
 };
+
+// Of a sighting in a frame at camera_from_world, the rig's offset counted in.
+Linearized linearize(const ActiveMap& map, const Landmark& landmark, const SE3& camera_from_world,
+                     const Sighting& sighting);
 
 // Frames beyond the first `frames` of the window leave it; what they said of inverse depths stays as the
 // landmarks' prior.

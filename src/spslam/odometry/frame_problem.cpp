@@ -75,6 +75,21 @@ MotionEstimate newest_estimate(const SolveSummary& summary, const SE3& pose) {
   return estimate;
 }
 
+constexpr int kEnoughProven = 40;  // sightings, to do without those of landmarks on trial
+
+// Which landmarks of the map may say something of the motion, by what the newest frame saw.
+std::vector<char> usable_landmarks(const ActiveMap& map, const std::vector<Sighting>& newest) {
+  std::vector<char> usable(map.landmarks.size());
+  for (std::size_t i = 0; i < usable.size(); ++i) usable[i] = !map.landmarks[i].on_trial;
+  const auto is_usable = [&](const Sighting& sighting) {
+    const int i = map.index_of(sighting.landmark);
+    return i >= 0 && usable[i];
+  };
+  if (std::count_if(newest.begin(), newest.end(), is_usable) < kEnoughProven)
+    std::fill(usable.begin(), usable.end(), 1);
+  return usable;
+}
+
 enum class Hosts { kAll, kOfWindow };
 
 // All frames of the window, the first one fixed, and what they saw of landmarks with a host among `hosts`.
@@ -88,9 +103,11 @@ void add_window(const ActiveMap& map, Hosts hosts, ProblemBuilder& builder) {
     poses[f] = builder.add_pose(map.window[f].camera_from_world, f == first);
     if (map.window[f].keyframe.valid()) builder.set_place(map.window[f].keyframe, poses[f]);
   }
+  if (map.window.empty()) return;
+  const std::vector<char> usable = usable_landmarks(map, map.window.back().sightings);
   for (std::size_t f = first; f < map.window.size(); ++f)
     for (const Sighting& sighting : map.window[f].sightings)
-      if (const int i = map.index_of(sighting.landmark); i >= 0)
+      if (const int i = map.index_of(sighting.landmark); i >= 0 && usable[i])
         if (hosts == Hosts::kAll || builder.has_place(map.landmarks[i].landmark.host))
           builder.observe(builder.landmark(i, true), poses[f], sighting);
 }
@@ -101,8 +118,9 @@ MotionEstimate estimate_motion(const ActiveMap& map, const std::vector<Sighting>
                                const SolverOptions& options) {
   ProblemBuilder builder(map, sightings.size());
   const int pose = builder.add_pose(start, false);
+  const std::vector<char> usable = usable_landmarks(map, sightings);
   for (const Sighting& sighting : sightings)
-    if (const int i = map.index_of(sighting.landmark); i >= 0)
+    if (const int i = map.index_of(sighting.landmark); i >= 0 && usable[i])
       builder.observe(builder.landmark(i, false), pose, sighting);
   Problem& problem = builder.finish();
   if (problem.observations.size() < 3) return {};

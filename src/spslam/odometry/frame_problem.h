@@ -17,7 +17,8 @@ struct MotionEstimate {
 };
 
 // Equations (6) to (9): the pose of one frame from its sightings, the landmarks' inverse depths being known
-// as well as their information says.
+// as well as their information says. Here and below landmarks on trial are left out where enough others
+// are seen.
 MotionEstimate estimate_motion(const ActiveMap& map, const std::vector<Sighting>& sightings, const SE3& start,
                                const SolverOptions& options);
 

@@ -7,6 +7,7 @@
 #include "spslam/alignment/row_search.h"
 #include "spslam/features/orb_options.h"
 #include "spslam/odometry/rig_monitor.h"
+#include "spslam/odometry/trial.h"
 #include "spslam/optimize/problem.h"
 #include "spslam/segmentation/options.h"
 #include "spslam/stereo/options.h"
@@ -194,6 +195,7 @@ struct TrackerOptions {
   FollowOptions follow;
   RecallOptions recall;
   FarOptions far;
+  TrialOptions trial;
   SolverOptions motion;
   SolverOptions window{.iterations = 6};
   int window_frames = 10;
@@ -215,6 +217,7 @@ struct TrackerOptions {
     visit.group("follow", self.follow);
     visit.group("recall", self.recall);
     visit.group("far", self.far);
+    visit.group("trial", self.trial);
     visit.group("motion", self.motion);
     visit.group("window", self.window);
     visit(self.window_frames, {"window_frames", "", "frames solved together; 1 for one by one", 1, 50});

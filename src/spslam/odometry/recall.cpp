@@ -75,8 +75,8 @@ void recall(const LocalMapView& view, const SE3& camera_from_world, const Tracke
             ActiveMap& map) {
   std::set<KeyframeId> hosts;
   for (const Landmark& landmark : landmarks_in_sight(map, view, camera_from_world, options)) {
-    map.landmarks.push_back(
-        {landmark, landmark.inverse_depth, landmark.information, options.follow.max_missed});
+    map.landmarks.push_back({landmark, landmark.inverse_depth, landmark.information,
+                             options.follow.max_missed, Verdict::kProven});
     hosts.insert(landmark.host);
   }
   std::sort(map.landmarks.begin(), map.landmarks.end(),

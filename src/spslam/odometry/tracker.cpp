@@ -28,8 +28,7 @@ int count_inliers(const ActiveMap& map, const std::vector<Sighting>& sightings, 
   int inliers = 0;
   for (const Sighting& s : sightings) {
     const Landmark& landmark = map.landmarks[map.index_of(s.landmark)].landmark;
-    const SE3 motion = pose * map.hosts.at(landmark.host).camera_from_world.inverse();
-    const Linearized at = linearize(map.rig, motion, landmark.bearing, landmark.inverse_depth, s.measured);
+    const Linearized at = linearize(map, landmark, pose, s);
     // The inverse depth is known only so well: what it adds to the residual is forgiven.
     const double slack =
         landmark.information > 0 ? at.by_inverse_depth.head<2>().norm() / std::sqrt(landmark.information) : 0;
@@ -42,7 +41,7 @@ int count_inliers(const ActiveMap& map, const std::vector<Sighting>& sightings, 
 }  // namespace
 
 Tracker::Tracker(const StereoRig& rig, const TrackerOptions& options)
-    : options_(options), front_end_(options) {
+    : options_(options), front_end_(options), trials_(options.trial) {
   rig.check();
   check_options(options);
   map_.rig = rig;
@@ -130,8 +129,9 @@ std::vector<Sighting> Tracker::find_landmarks(const Frame& frame, SE3& predicted
   std::sort(sightings.begin(), sightings.end(),
             [](const Sighting& a, const Sighting& b) { return a.landmark < b.landmark; });
   for (const Sighting& sighting : sightings) {
-    ++(map_.landmarks[map_.index_of(sighting.landmark)].landmark.region == Region::kNear ? result.near
-                                                                                         : result.far);
+    const ActiveLandmark& active = map_.landmarks[map_.index_of(sighting.landmark)];
+    ++(active.landmark.region == Region::kNear ? result.near : result.far);
+    result.on_trial += active.on_trial;
     result.with_disparity += sighting.inverse_sigma.z() > 0;
   }
   return sightings;

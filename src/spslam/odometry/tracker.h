@@ -13,6 +13,7 @@
 #include "spslam/odometry/motion_model.h"
 #include "spslam/odometry/stage_timer.h"
 #include "spslam/odometry/track_result.h"
+#include "spslam/odometry/trial.h"
 
 namespace spslam {
 
@@ -99,6 +100,7 @@ class Tracker {
   TrackerOptions options_;
   FrontEnd front_end_;
   FarPoints far_points_;
+  Trials trials_;
   KeyframePolicy policy_;
   MotionModel motion_;
   RigMonitor rig_monitor_;

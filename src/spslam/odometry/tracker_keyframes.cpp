@@ -51,7 +51,8 @@ void Tracker::make_keyframe(const Frame& frame, WindowFrame& present) {
     fresh.landmark.id = fresh.sighting.landmark = {landmarks_++};
     fresh.landmark.host = present.keyframe;
     present.sightings.push_back(fresh.sighting);
-    map_.landmarks.push_back({fresh.landmark, fresh.landmark.inverse_depth, 0, 0});
+    map_.landmarks.push_back({fresh.landmark, fresh.landmark.inverse_depth});
+    map_.landmarks.back().on_trial = trials_.needed_at(map_.rig, fresh.landmark.pixel);
   }
   // Landmarks that the mapper made have ids beyond the tracker's own.
   std::sort(map_.landmarks.begin(), map_.landmarks.end(),
@@ -66,13 +67,15 @@ void Tracker::make_keyframe(const Frame& frame, WindowFrame& present) {
 }
 
 // Landmarks not found in the newest frame are missed; those missed too often retire, to be handed over with
-// their host.
+// their host unless they were on trial.
 void Tracker::let_go() {
   for (ActiveLandmark& active : map_.landmarks) ++active.missed;
   for (const Sighting& s : map_.window.back().sightings)
     if (const int i = map_.index_of(s.landmark); i >= 0) map_.landmarks[i].missed = 0;
+  trials_.judge(map_, options_.follow.max_missed);
   for (const ActiveLandmark& active : map_.landmarks)
-    if (active.missed > options_.follow.max_missed) retired_[active.landmark.id] = active.landmark;
+    if (active.missed > options_.follow.max_missed && !active.on_trial)
+      retired_[active.landmark.id] = active.landmark;
   forget(map_, options_.follow.max_missed);
 }
 

@@ -22,6 +22,7 @@ SlamOptions feature_slam_options() {
   t.keyframe.lost_of_keyframe = 0.7;
   t.keyframe.max_frames = 20;
   t.window_frames = 1;
+  t.trial.enabled = false;
   t.landmarks.count = 1500;
   t.landmarks.levels = t.orb.levels;
   t.motion.loss = Loss::kHuber;
