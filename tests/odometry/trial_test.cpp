@@ -80,15 +80,42 @@ TEST(Trials, WhereFewProveRightNewLandmarksAreOnTrial) {
 }
 
 TEST(Trials, EndWithBeingTrustedOrLetGo) {
-  test::SyntheticMap world = wavy_world(8);
-  for (ActiveLandmark& active : world.map.landmarks) active.on_trial = true;
   Trials trials({});
+  test::SyntheticMap first = wavy_world(8);
+  judge_all(first, trials);
+  test::SyntheticMap world = wavy_world(8);
+  world.map.window.push_back(first.map.window.front());
+  trials.judge(world.map, kMaxMissed);
+  const auto on_trial = [&](bool low) {
+    return std::count_if(world.map.landmarks.begin(), world.map.landmarks.end(), [&](const auto& active) {
+      return active.on_trial && is_low(world.map.rig, active.landmark) == low;
+    });
+  };
+  EXPECT_GT(on_trial(true), 100);
+  EXPECT_EQ(on_trial(false), 0);
+  world.map.window.clear();
   judge_all(world, trials);
   for (const ActiveLandmark& active : world.map.landmarks) {
-    const bool is_refuted = active.verdict == Verdict::kRefuted;
-    EXPECT_EQ(active.on_trial, active.verdict != Verdict::kProven);
-    EXPECT_EQ(active.missed > kMaxMissed, is_refuted);
+    EXPECT_FALSE(active.on_trial && active.verdict == Verdict::kProven);
+    EXPECT_EQ(active.missed > kMaxMissed, active.on_trial && active.verdict == Verdict::kRefuted);
   }
+}
+
+// Where tracking begins nothing is known: those that are still open when the first have failed are on trial.
+TEST(Trials, GoOnForThoseMadeBeforeThePlaceWasKnown) {
+  Trials trials({});
+  test::SyntheticMap world = wavy_world(8);
+  for (std::size_t camera = 1; camera < world.sightings.size(); ++camera)  // half of them are seen once only
+    std::erase_if(world.sightings[camera],
+                  [&](const Sighting& s) { return camera != 1 && s.landmark.value % 2 == 0; });
+  judge_all(world, trials);
+  int open_on_trial = 0;
+  for (const ActiveLandmark& active : world.map.landmarks) {
+    const bool is_open = active.verdict == Verdict::kOpen;
+    EXPECT_EQ(active.on_trial && is_open, is_open && trials.needed_at(world.map.rig, active.landmark.pixel));
+    open_on_trial += is_open && active.on_trial;
+  }
+  EXPECT_GT(open_on_trial, 20);
 }
 
 TEST(Trials, OneThatIsLostInSightIsRefutedOneThatLeftTheImageIsNot) {

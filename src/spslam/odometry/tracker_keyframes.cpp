@@ -52,7 +52,6 @@ void Tracker::make_keyframe(const Frame& frame, WindowFrame& present) {
     fresh.landmark.host = present.keyframe;
     present.sightings.push_back(fresh.sighting);
     map_.landmarks.push_back({fresh.landmark, fresh.landmark.inverse_depth});
-    map_.landmarks.back().on_trial = trials_.needed_at(map_.rig, fresh.landmark.pixel);
   }
   // Landmarks that the mapper made have ids beyond the tracker's own.
   std::sort(map_.landmarks.begin(), map_.landmarks.end(),

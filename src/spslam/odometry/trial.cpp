@@ -61,6 +61,9 @@ void Trials::judge(ActiveMap& map, int max_missed) {
     if (active.verdict == Verdict::kOpen && active.missed > max_missed &&
         predict(map, active.landmark, newest.camera_from_world))
       conclude(map.rig, Verdict::kRefuted, max_missed, active);
+  // At the start nothing is known of a place: its landmarks go on trial as soon as the first have failed.
+  for (ActiveLandmark& active : map.landmarks)
+    if (active.verdict == Verdict::kOpen) active.on_trial = needed_at(map.rig, active.landmark.pixel);
 }
 
 }  // namespace spslam

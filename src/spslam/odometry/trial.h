@@ -41,11 +41,12 @@ class Trials {
  public:
   explicit Trials(const TrialOptions& options) : options_(options) {}
 
-  // Whether a landmark that is made there begins on trial.
+  // Whether landmarks that were made there, and are neither proven nor refuted yet, are on trial.
   bool needed_at(const StereoRig& rig, const Eigen::Vector2f& pixel) const;
   // Judges the landmarks that are neither proven nor refuted yet by what the newest frame of the window saw
   // of them. Refuted are, too, those in sight that have been missed more than `max_missed` times. Those
-  // refuted while on trial are missed more often than that afterwards, so that they are let go.
+  // refuted while on trial are missed more often than that afterwards, so that they are let go. The others
+  // that are still open go on trial, or cease to be, as their place deserves.
   void judge(ActiveMap& map, int max_missed);
 
  private:
