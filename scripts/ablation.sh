@@ -10,7 +10,7 @@
 #   SEEDS    seeds 1 to so many (5)
 #   FRAMES   pairs of each run (150); 0 for the whole way
 #   PRESETS  their names (baseline sp-slam)
-#   OUTPUT   folder for the runs (out/ablation); ablation.tsv in it has a line a run
+#   OUTPUT   folder for the runs (out/ablation); ablation.tsv in it has a line a run; data that are there already are used again
 #   KEEP     1 keeps the rendered data, which are removed after their use else
 #   SPSLAM   the program (build/release/bin/spslam)
 set -euo pipefail
@@ -48,7 +48,7 @@ run_scene() {  # SCENE
   local scene=$1 seed preset data run
   for ((seed = 1; seed <= seeds; ++seed)); do
     data=$output/$scene.$seed.data
-    "$program" simulate "$scene" --seed "$seed" ${length[@]+"${length[@]}"} --output "$data" --overwrite >&2
+    [ -f "$data/poses.txt" ] || "$program" simulate "$scene" --seed "$seed" ${length[@]+"${length[@]}"} --output "$data" --overwrite >&2
     for preset in "${presets[@]}"; do
       run=$output/$scene.$seed.$preset
       "$program" run "$data" --preset "$preset" --sequential --quiet --output "$run" --overwrite

@@ -60,12 +60,12 @@ TEST_F(VocabularyRecall, CountsWrongAnswersAsWrong) {
 }
 
 TEST_F(VocabularyRecall, LooksAtDistanceAngleAndGap) {
-  const auto revisits = [&](double moved, double turned, int time, const RecallOptions& options) {
+  const auto revisits = [&](double moved, double turned, int time, const PlaceRecallOptions& options) {
     std::vector<PlaceView> views = {view(0, 0), view(0, time)};
     views[1].world_from_camera = at(moved, turned);
     return measure_recall(views, vocabulary_, options).revisits;
   };
-  const RecallOptions options = {3, 30, 10};
+  const PlaceRecallOptions options = {3, 30, 10};
   EXPECT_EQ(revisits(2.9, 0, 11, options), 1);
   EXPECT_EQ(revisits(3.1, 0, 11, options), 0);
   EXPECT_EQ(revisits(0, 0.5, 11, options), 1);

@@ -41,7 +41,7 @@ struct ConvertArguments {
 struct RecallArguments {
   std::string vocabulary, map;
   ImageArguments images;
-  RecallOptions options;
+  PlaceRecallOptions options;
 };
 
 bool is_text(const fs::path& path) {

@@ -135,18 +135,18 @@ std::string error_charts(const Evaluation& e) {
          "</div>\n";
 }
 
-std::vector<std::string> row(const char* name, const Statistics& s) {
+std::vector<std::string> table_row(const char* name, const Statistics& s) {
   const auto cell = [&](double value) { return s.count ? fmt::format("{:.4f}", value) : std::string("-"); };
   return {name, cell(s.mean), cell(s.maximum), cell(s.rmse), cell(s.deviation), cell(s.median)};
 }
 
 std::string metrics_table(const Evaluation& e) {
   std::string html = html_table({{"", "mean", "max", "RMSE", "S.D.", "median"},
-                                 row("ATE [m]", e.ate.position),
-                                 row("RPE [m/s]", e.rpe_per_second.translation),
-                                 row("RPE [deg/s]", e.rpe_per_second.rotation),
-                                 row("RPE per frame [m]", e.rpe_per_frame.translation),
-                                 row("RPE per frame [deg]", e.rpe_per_frame.rotation)});
+                                 table_row("ATE [m]", e.ate.position),
+                                 table_row("RPE [m/s]", e.rpe_per_second.translation),
+                                 table_row("RPE [deg/s]", e.rpe_per_second.rotation),
+                                 table_row("RPE per frame [m]", e.rpe_per_frame.translation),
+                                 table_row("RPE per frame [deg]", e.rpe_per_frame.rotation)});
   const char* mode = option_names(e.options.align)[static_cast<std::size_t>(e.options.align)];
   html += fmt::format(
       "<p class=\"dim\">{} of {} poses associated; alignment: {}{}; path {:.2f} m estimated, {:.2f} m true",

@@ -10,7 +10,6 @@
 namespace spslam {
 namespace {
 
-constexpr double kLevelScale = 1.2;   // of the pyramid: a corner of level n is known 1.2^n times worse
 constexpr double kGuidedRatio = 0.9;  // best distance over second best
 constexpr double kSameCorner = 3;     // px; nearer ones are one corner found on two levels
 constexpr int kVisibleCell = 4;       // px

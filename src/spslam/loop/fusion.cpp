@@ -7,12 +7,13 @@
 #include <set>
 #include <tuple>
 
+#include "spslam/loop/correspondences.h"
+
 namespace spslam {
 namespace {
 
 constexpr double kDisparitySigmas = 4;   // by which disparities of duplicates may differ
 constexpr double kDisparityFloor = 0.3;  // px, beside them
-constexpr double kLevelScale = 1.2;      // of the pyramid
 
 using Pixel = std::pair<float, float>;
 

@@ -8,9 +8,9 @@
 namespace spslam {
 namespace {
 
-constexpr double kAgreementSigmas = 5;
-constexpr double kAgreementFloor = 0.3;       // m; the map may have drifted between its keyframes
-constexpr double kAgreementTurn = M_PI / 60;  // rad
+constexpr double kPlaceSigmas = 5;
+constexpr double kPlaceFloor = 0.3;       // m; the map may have drifted between its keyframes
+constexpr double kPlaceTurn = M_PI / 60;  // rad
 
 bool agree(const Relocalized& a, const Relocalized& b) {
   const SE3 off = a.camera_from_world * b.camera_from_world.inverse();
@@ -18,8 +18,8 @@ bool agree(const Relocalized& a, const Relocalized& b) {
       a.covariance.topLeftCorner<3, 3>().trace() + b.covariance.topLeftCorner<3, 3>().trace();
   const double distance =
       (a.camera_from_world.inverse().translation - b.camera_from_world.inverse().translation).norm();
-  return distance <= kAgreementFloor + kAgreementSigmas * std::sqrt(variance) &&
-         so3_log(off.rotation).norm() <= kAgreementTurn;
+  return distance <= kPlaceFloor + kPlaceSigmas * std::sqrt(variance) &&
+         so3_log(off.rotation).norm() <= kPlaceTurn;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <set>
 
+#include "spslam/base/median.h"
 #include "spslam/loop/correspondences.h"
 
 namespace spslam {
@@ -163,9 +164,7 @@ class Verifier {
     }
     out_.scaled = static_cast<int>(ratios.size());
     if (out_.scaled < kLeastScaled) return 1;
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    return out_.scale = *middle;
+    return out_.scale = median(std::move(ratios));
   }
 
   const Place& older_;

@@ -16,7 +16,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool same_place(const PlaceView& a, const PlaceView& b, const RecallOptions& options) {
+bool same_place(const PlaceView& a, const PlaceView& b, const PlaceRecallOptions& options) {
   const SE3 motion = a.world_from_camera.inverse() * b.world_from_camera;
   const double cosine = motion.rotation(2, 2);  // between the optical axes
   return motion.translation.norm() <= options.distance &&
@@ -26,7 +26,8 @@ bool same_place(const PlaceView& a, const PlaceView& b, const RecallOptions& opt
 // Asks one image after the other and counts.
 class Measurement {
  public:
-  Measurement(std::span<const PlaceView> database, const Vocabulary& vocabulary, const RecallOptions& options)
+  Measurement(std::span<const PlaceView> database, const Vocabulary& vocabulary,
+              const PlaceRecallOptions& options)
       : database_(database), options_(options), index_(vocabulary) {}
 
   // Puts the database's next image into the index.
@@ -76,7 +77,7 @@ class Measurement {
   }
 
   std::span<const PlaceView> database_;
-  const RecallOptions& options_;
+  const PlaceRecallOptions& options_;
   KeyframeIndex index_;
   RecallResult result_;
   std::vector<double> right_scores_;  // of best answers
@@ -85,7 +86,7 @@ class Measurement {
 }  // namespace
 
 RecallResult measure_recall(std::span<const PlaceView> views, const Vocabulary& vocabulary,
-                            const RecallOptions& options) {
+                            const PlaceRecallOptions& options) {
   Measurement measurement(views, vocabulary, options);
   for (const PlaceView& view : views) {
     while (views[measurement.added()].timestamp < view.timestamp - options.gap) measurement.add_next();
@@ -95,7 +96,7 @@ RecallResult measure_recall(std::span<const PlaceView> views, const Vocabulary& 
 }
 
 RecallResult measure_recall(std::span<const PlaceView> views, std::span<const PlaceView> map,
-                            const Vocabulary& vocabulary, const RecallOptions& options) {
+                            const Vocabulary& vocabulary, const PlaceRecallOptions& options) {
   Measurement measurement(map, vocabulary, options);
   while (measurement.added() < map.size()) measurement.add_next();
   for (const PlaceView& view : views) measurement.ask(view);

@@ -11,7 +11,7 @@
 
 namespace spslam {
 
-struct RecallOptions {
+struct PlaceRecallOptions {
   double distance = 3;
   double angle = 30;
   double gap = 10;
@@ -46,10 +46,10 @@ struct RecallResult {
 // Asks for each view in turn, among those of the same sequence that are older, by the gap, than it (as a loop
 // closer does). Views in order of time.
 RecallResult measure_recall(std::span<const PlaceView> views, const Vocabulary& vocabulary,
-                            const RecallOptions& options = {});
+                            const PlaceRecallOptions& options = {});
 // Asks for each view among all of another sequence, whose poses must be in the same world (as localization in
 // a saved map does).
 RecallResult measure_recall(std::span<const PlaceView> views, std::span<const PlaceView> map,
-                            const Vocabulary& vocabulary, const RecallOptions& options = {});
+                            const Vocabulary& vocabulary, const PlaceRecallOptions& options = {});
 
 }  // namespace spslam

@@ -6,7 +6,7 @@
 namespace spslam {
 namespace {
 
-constexpr int kSteps = 4;
+constexpr int kNewtonSteps = 4;
 constexpr double kLeastInformation = 1e-9;  // m^2
 constexpr double kMaxMove = 3;              // sigma of a feature that its aligned position may lie off it
 
@@ -270,7 +270,7 @@ std::optional<Triangulated> triangulate(const StereoRig& rig, const Eigen::Vecto
   const LinearSums start = linear_sums(rig, bearing, views, known);
   if (!(start.information > kLeastInformation)) return std::nullopt;
   Triangulated out{-start.gradient / start.information, 0};
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kNewtonSteps; ++step) {
     double information = known.information,
            gradient = known.information * (out.inverse_depth - known.inverse_depth);
     for (const DepthView& view : views) {

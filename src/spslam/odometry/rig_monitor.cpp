@@ -4,6 +4,7 @@
 #include "spslam/odometry/rig_monitor.h"
 
 #include "spslam/base/log.h"
+#include "spslam/base/median.h"
 #include "spslam/odometry/frame_problem.h"
 
 namespace spslam {
@@ -11,12 +12,6 @@ namespace {
 
 constexpr double kOnlyConstant =
     1e8;  // 1/px^2; holds the other coefficients at zero: they are not told apart from depth
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<double> disparities_of(const WindowFrame& frame) {
   std::vector<double> out;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tracker's keyframes: when one is made, what it brings, and how it is handed over.
 
+#include "spslam/base/median.h"
 #include "spslam/odometry/new_landmarks.h"
 #include "spslam/odometry/recall.h"
 #include "spslam/odometry/tracker.h"
@@ -10,13 +11,6 @@ namespace spslam {
 namespace {
 
 constexpr std::size_t kRemembered = 64;  // keyframes; the mapper is never farther behind
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

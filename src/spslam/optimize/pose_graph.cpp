@@ -12,8 +12,8 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double kSmallAngle = 1e-2;  // rad; below it the closed forms lose digits and the series do not
-constexpr double kLargestDamping = 1e8;
-constexpr double kLeastInformation = 1e-12;  // a pose without edges stays where it is
+constexpr double kLargestGraphDamping = 1e8;
+constexpr double kLoosePose = 1e-12;  // a pose without edges stays where it is
 
 Eigen::Matrix3d inverse_left_jacobian_so3(const Eigen::Vector3d& phi) {
   const double angle = phi.norm();
@@ -132,7 +132,7 @@ class Solver {
       graph_.poses = before;
     }
     damping_ = std::max(damping_ * 10, 1e-6);
-    if (damping_ <= kLargestDamping) return std::nullopt;
+    if (damping_ <= kLargestGraphDamping) return std::nullopt;
     return valid ? SolveStatus::kConverged : SolveStatus::kFailed;
   }
 
@@ -150,7 +150,7 @@ class Solver {
     hessian.setFromTriplets(equations_.hessian.begin(), equations_.hessian.end());
     for (int i = 0; i < columns_.count; ++i) {
       double& diagonal = hessian.coeffRef(i, i);
-      diagonal = diagonal * (1 + damping_) + kLeastInformation;
+      diagonal = diagonal * (1 + damping_) + kLoosePose;
     }
     if (!analyzed_) factor_.analyzePattern(hessian);
     analyzed_ = true;

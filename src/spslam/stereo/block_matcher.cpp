@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spslam/base/median.h"
 #include "spslam/stereo/block.h"
 
 namespace spslam {
@@ -103,9 +104,8 @@ void drop_outliers(std::span<StereoMeasurement> measurements, std::span<const Bl
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (measurements[i].ok()) residuals.push_back(blocks[i].residual);
   if (residuals.size() < kMinForMedian) return;
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  const double limit = max_ratio * std::max(*middle, 1.0);  // identical images have a median of 0
+  const double limit =
+      max_ratio * std::max(median(std::move(residuals)), 1.0);  // identical images have a median of 0
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (measurements[i].ok() && blocks[i].residual > limit)
       measurements[i].status = StereoStatus::kBlockOutlier;

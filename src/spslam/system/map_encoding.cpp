@@ -226,17 +226,17 @@ struct Parts {
   }
 };
 
-Problem first_problem(const Parts& parts, const std::vector<LoopEdge>& loops) {
-  if (Problem problem = problem_of(parts.ids)) return problem;
+MapProblem first_problem(const Parts& parts, const std::vector<LoopEdge>& loops) {
+  if (MapProblem problem = problem_of(parts.ids)) return problem;
   for (const Landmark* landmark : parts.landmarks)
-    if (Problem problem = problem_of(*landmark, parts.ids)) return problem;
+    if (MapProblem problem = problem_of(*landmark, parts.ids)) return problem;
   std::vector<KeyframeId> parents;
   for (const Keyframe* keyframe : parts.keyframes) {
-    if (Problem problem = problem_of(*keyframe, parts.ids)) return problem;
+    if (MapProblem problem = problem_of(*keyframe, parts.ids)) return problem;
     parents.push_back(keyframe->parent);
   }
   for (const LoopEdge& edge : loops)
-    if (Problem problem = problem_of(edge, parts.ids)) return problem;
+    if (MapProblem problem = problem_of(edge, parts.ids)) return problem;
   return problem_of_tree(parents, parts.ids);
 }
 
@@ -267,7 +267,7 @@ std::vector<std::byte> encode_map(const Map& map, const StereoRig& rig, std::siz
   Parts parts;
   for (const auto& [id, landmark] : map.landmarks()) parts.add(landmark);
   for (const auto& [id, keyframe] : map.keyframes()) parts.add(keyframe);
-  if (Problem problem = first_problem(parts, map.loops()))
+  if (MapProblem problem = first_problem(parts, map.loops()))
     throw OutputError("the map is not saved, for nobody could read it: " + *problem +
                       "; this is an error of the program, please report it");
   ByteWriter out(header_bytes + encoded_size(map));
@@ -294,7 +294,7 @@ SavedMap decode_map(std::span<const std::byte> bytes, const std::string& name) {
   Parts parts;
   for (const Landmark& landmark : landmarks) parts.add(landmark);
   for (const Keyframe& keyframe : keyframes) parts.add(keyframe);
-  if (Problem problem = first_problem(parts, loops))
+  if (MapProblem problem = first_problem(parts, loops))
     throw InputError(name + ": " + *problem + "; the file is damaged, use another copy or make it anew");
   saved.map = assemble(landmarks, std::move(keyframes), loops);
   return saved;

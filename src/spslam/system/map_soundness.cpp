@@ -35,7 +35,7 @@ std::string named(const char* what, Id id) {
   return std::string(what) + " " + std::to_string(id.value);
 }
 
-Problem problem_of(const Sighting& sighting) {
+MapProblem problem_of(const Sighting& sighting) {
   if (!sighting.measured.allFinite()) return "a position that is not finite";
   for (const double inverse_sigma : sighting.inverse_sigma)
     if (!is_amount(inverse_sigma)) return "an error that is not a finite, positive number";
@@ -43,7 +43,7 @@ Problem problem_of(const Sighting& sighting) {
   return std::nullopt;
 }
 
-Problem problem_of(const KeyframeFeatures& features) {
+MapProblem problem_of(const KeyframeFeatures& features) {
   const std::size_t size = features.size();
   if (features.descriptors.size() != size || features.inverse_depths.size() != size ||
       features.information.size() != size)
@@ -58,14 +58,14 @@ Problem problem_of(const KeyframeFeatures& features) {
   return std::nullopt;
 }
 
-Problem problem_of_sightings(const Keyframe& keyframe, const MapIds& ids) {
+MapProblem problem_of_sightings(const Keyframe& keyframe, const MapIds& ids) {
   LandmarkId last;
   for (const Sighting& sighting : keyframe.sightings) {
     if (sighting.landmark <= last) return "sightings that are not in order";
     last = sighting.landmark;
     if (!contains(ids.landmarks, last))
       return "a sighting of " + named("landmark", last) + ", which is not in the map";
-    if (const Problem problem = problem_of(sighting))
+    if (const MapProblem problem = problem_of(sighting))
       return "a sighting of " + named("landmark", last) + " with " + *problem;
   }
   return std::nullopt;
@@ -73,7 +73,7 @@ Problem problem_of_sightings(const Keyframe& keyframe, const MapIds& ids) {
 
 }  // namespace
 
-Problem problem_of(const MapIds& ids) {
+MapProblem problem_of(const MapIds& ids) {
   if (!ids.keyframes.empty() && !ids.keyframes.front().valid()) return "a keyframe has a negative id";
   if (!ids.landmarks.empty() && !ids.landmarks.front().valid()) return "a landmark has a negative id";
   if (!ascending(ids.keyframes)) return "keyframes are not in the order of their ids";
@@ -81,7 +81,7 @@ Problem problem_of(const MapIds& ids) {
   return std::nullopt;
 }
 
-Problem problem_of(const Landmark& landmark, const MapIds& ids) {
+MapProblem problem_of(const Landmark& landmark, const MapIds& ids) {
   const std::string has = named("landmark", landmark.id) + " has ";
   if (!contains(ids.keyframes, landmark.host))
     return has + named("keyframe", landmark.host) + " as its host, which is not in the map";
@@ -96,17 +96,17 @@ Problem problem_of(const Landmark& landmark, const MapIds& ids) {
   return std::nullopt;
 }
 
-Problem problem_of(const Keyframe& keyframe, const MapIds& ids) {
+MapProblem problem_of(const Keyframe& keyframe, const MapIds& ids) {
   const std::string has = named("keyframe", keyframe.id) + " has ";
   if (!std::isfinite(keyframe.timestamp)) return has + "a time that is not finite";
   if (!is_rigid(keyframe.camera_from_world)) return has + "a pose that is not finite, or no rigid motion";
-  if (const Problem problem = problem_of_sightings(keyframe, ids)) return has + *problem;
+  if (const MapProblem problem = problem_of_sightings(keyframe, ids)) return has + *problem;
   if (!keyframe.features) return std::nullopt;
-  if (const Problem problem = problem_of(*keyframe.features)) return has + *problem;
+  if (const MapProblem problem = problem_of(*keyframe.features)) return has + *problem;
   return std::nullopt;
 }
 
-Problem problem_of(const LoopEdge& edge, const MapIds& ids) {
+MapProblem problem_of(const LoopEdge& edge, const MapIds& ids) {
   for (const KeyframeId id : {edge.older, edge.newer})
     if (!contains(ids.keyframes, id))
       return "a loop ends at " + named("keyframe", id) + ", which is not in the map";
@@ -116,7 +116,7 @@ Problem problem_of(const LoopEdge& edge, const MapIds& ids) {
   return std::nullopt;
 }
 
-Problem problem_of_tree(const std::vector<KeyframeId>& parents, const MapIds& ids) {
+MapProblem problem_of_tree(const std::vector<KeyframeId>& parents, const MapIds& ids) {
   const std::vector<KeyframeId>& keyframes = ids.keyframes;
   if (std::count_if(parents.begin(), parents.end(), [](KeyframeId id) { return !id.valid(); }) !=
       std::ptrdiff_t(!keyframes.empty()))

@@ -18,14 +18,14 @@ struct MapIds {
   std::vector<LandmarkId> landmarks;
 };
 
-using Problem = std::optional<std::string>;
+using MapProblem = std::optional<std::string>;
 
-Problem problem_of(const MapIds& ids);
+MapProblem problem_of(const MapIds& ids);
 // Numbers are finite, errors not negative, ids exist, a pose is a rigid motion.
-Problem problem_of(const Landmark& landmark, const MapIds& ids);
-Problem problem_of(const Keyframe& keyframe, const MapIds& ids);
-Problem problem_of(const LoopEdge& edge, const MapIds& ids);
+MapProblem problem_of(const Landmark& landmark, const MapIds& ids);
+MapProblem problem_of(const Keyframe& keyframe, const MapIds& ids);
+MapProblem problem_of(const LoopEdge& edge, const MapIds& ids);
 // parents[i] is the parent of ids.keyframes[i]: one tree over all of them.
-Problem problem_of_tree(const std::vector<KeyframeId>& parents, const MapIds& ids);
+MapProblem problem_of_tree(const std::vector<KeyframeId>& parents, const MapIds& ids);
 
 }  // namespace spslam
