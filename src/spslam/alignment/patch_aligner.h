@@ -19,7 +19,7 @@ struct AlignmentOptions {
   int iterations = 12;
   double convergence = 0.01;
   double min_contrast = 2.0;
-  double min_correlation = 0.85;
+  double min_correlation = 0.87;
   double noise = 2.0;
 
   template <class Self, class Visitor>
