@@ -17,17 +17,8 @@ scripts/build.sh release --target spslam_cli
 
 rm -rf "$out/data" "$out/run"
 mkdir -p "$out"
-if "$program" --help | grep -q '^  simulate '; then
-  data=$out/data
-  "$program" simulate bank --frames "$frames" --output "$data"
-elif [ -d ../shared/data/nearshore_bank ]; then
-  data=../shared/data/nearshore_bank
-  echo "This version has no simulator; using $data."
-else
-  echo "This version has no simulator, and there is no ../shared/data/nearshore_bank to use instead." >&2
-  exit 1
-fi
-
+data=$out/data
+"$program" simulate bank --frames "$frames" --output "$data"
 "$program" run "$data" --output "$out/run" --sequential
 "$program" evaluate "$out/run/trajectory_kitti.txt" "$data/poses.txt"
 "$program" report "$out/run" --truth "$data/poses.txt" --output "$out/report.html"
