@@ -15,6 +15,10 @@ export TSAN_OPTIONS=suppressions=$PWD/tests/tsan.supp
 export GTEST_FILTER=$filter GTEST_BRIEF=1
 
 cmake --preset "$preset" -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g1" >/dev/null
+# Debian's TBB is not instrumented: ThreadSanitizer does not see how it orders its tasks. On one core it has no workers, and what is left are
+# our own threads (tracking, mapping, loops, localization, reading ahead).
+export pin=
+[ "$preset" != tsan ] || pin="taskset -c 0"
 mapfile -t names < <(ninja -C "build/$preset" -t targets all | sed -n 's/^\(test_[a-z0-9_]*\): phony$/\1/p' | grep -v '^test_cli$' | sort)
 [ ${#names[@]} -gt 0 ] || { echo "no target is called test_*" >&2; exit 1; }
 cmake --build --preset "$preset" --target "${names[@]}"
@@ -22,5 +26,5 @@ printf '%s\n' "${names[@]}" |
   xargs -P "$(nproc)" -I{} bash -c '
     start=$SECONDS
     program=$(find "build/$2" -type f -name "$1" -perm -u+x)
-    if "$program" </dev/null >"$program.log" 2>&1; then echo "$2: $1 passed in $((SECONDS - start)) s"
+    if $pin "$program" </dev/null >"$program.log" 2>&1; then echo "$2: $1 passed in $((SECONDS - start)) s"
     else cat "$program.log"; echo "$2: $1 FAILED"; exit 1; fi' run {} "$preset"
