@@ -31,6 +31,11 @@ double way_between(const Map& map, KeyframeId from, KeyframeId to) {
   return length;
 }
 
+// Of the cameras' centres.
+double distance_between(const Keyframe& a, const Keyframe& b) {
+  return (a.camera_from_world.inverse().translation - b.camera_from_world.inverse().translation).norm();
+}
+
 LoopClosure closure_of(KeyframeId newer, const Place& place, const Verification& verified) {
   LoopClosure out;
   out.edge = {place.id, newer, verified.newer_from_older, static_cast<double>(verified.inliers)};
@@ -165,6 +170,12 @@ std::vector<LoopCandidate> LoopCloser::find_candidates(const Map& map, const Key
 
 void LoopCloser::examine(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate,
                          LoopAttempt& attempt) const {
+  const Keyframe& older = *map.find(candidate.keyframe);
+  candidate.way = connected(candidate.keyframe, keyframe.id)
+                      ? way_between(map, candidate.keyframe, keyframe.id)
+                      : std::numeric_limits<double>::infinity();
+  candidate.stage = LoopStage::kNoReturn;
+  if (candidate.way < options_.min_detour * distance_between(older, keyframe)) return;
   const Place place = place_of(map, rig_, candidate.keyframe, verification_.neighbours);
   Verification verified = verify(place, *keyframe.features, rig_, index_.vocabulary(), verification_);
   LoopClosure closure = closure_of(keyframe.id, place, verified);
@@ -191,9 +202,6 @@ bool LoopCloser::is_plausible(const Map& map, const Keyframe& keyframe, LoopCand
       (candidate.verification.newer_from_older.inverse().translation - by_odometry.inverse().translation)
           .norm();
   candidate.turn_gap = degrees(gap);
-  candidate.way = connected(candidate.keyframe, keyframe.id)
-                      ? way_between(map, candidate.keyframe, keyframe.id)
-                      : std::numeric_limits<double>::infinity();
   return candidate.gap <= options_.max_drift_floor + options_.max_drift * candidate.way &&
          candidate.turn_gap <= options_.max_turn_drift_floor + options_.max_turn_drift * candidate.way;
 }

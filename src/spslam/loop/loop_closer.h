@@ -20,6 +20,7 @@ struct DetectionOptions {
   int candidates = 3;
   int consistency = 1;
   int confirmations = 1;
+  double min_detour = 2;
   double max_drift = 0.3;
   double max_drift_floor = 1;
   double max_turn_drift = 0.2;
@@ -37,6 +38,8 @@ struct DetectionOptions {
           {"consistency", "", "keyframes before in a row with a candidate of the same group", 0, 20});
     visit(self.confirmations,
           {"confirmations", "", "keyframes before that must give the same motion by themselves", 0, 10});
+    visit(self.min_detour,
+          {"min_detour", "m/m", "length of the way over the distance of its ends, at least", 1, 1000});
     visit(self.max_drift,
           {"max_drift", "m/m", "gap of a loop over the length of its way, at most", 0.001, 100});
     visit(self.max_drift_floor, {"max_drift_floor", "m", "and this more", 0, 1000});
@@ -50,6 +53,7 @@ struct DetectionOptions {
 // Where a candidate was dropped, in order of the tests.
 enum class LoopStage {
   kInconsistent,  // the keyframes before did not look like it
+  kNoReturn,      // the camera went on and did not come back: odometry over so short a way knows better
   kNotVerified,   // by geometry; the verification says why
   kImplausible,   // odometry cannot have drifted so far
   kNotConfirmed,  // a keyframe before says otherwise, or nothing
@@ -57,8 +61,8 @@ enum class LoopStage {
 };
 
 inline std::span<const char* const> option_names(LoopStage) {
-  static constexpr const char* names[] = {"inconsistent", "not-verified", "implausible", "not-confirmed",
-                                          "accepted"};
+  static constexpr const char* names[] = {"inconsistent", "no-return",     "not-verified",
+                                          "implausible",  "not-confirmed", "accepted"};
   return names;
 }
 
