@@ -11,7 +11,7 @@
 #   FRAMES   pairs of each run (150); 0 for the whole way
 #   PRESETS  their names (baseline sp-slam)
 #   OUTPUT   folder for the runs (out/ablation); ablation.tsv in it has a line a run; data that are there already are used again
-#   KEEP     1 keeps the rendered data, which are removed after their use else
+#   KEEP     1 keeps what is rendered, which is removed after its use else
 #   SPSLAM   the program (build/release/bin/spslam)
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
@@ -45,16 +45,20 @@ tracked() {  # FOLDER
 }
 
 run_scene() {  # SCENE
-  local scene=$1 seed preset data run
+  local scene=$1 seed preset data run rendered
   for ((seed = 1; seed <= seeds; ++seed)); do
     data=$output/$scene.$seed.data
-    [ -f "$data/poses.txt" ] || "$program" simulate "$scene" --seed "$seed" ${length[@]+"${length[@]}"} --output "$data" --overwrite >&2
+    rendered=0
+    [ -f "$data/poses.txt" ] || {
+      rendered=1
+      "$program" simulate "$scene" --seed "$seed" ${length[@]+"${length[@]}"} --output "$data" --overwrite >&2
+    }
     for preset in "${presets[@]}"; do
       run=$output/$scene.$seed.$preset
       "$program" run "$data" --preset "$preset" --sequential --quiet --output "$run" --overwrite
       echo "$scene $seed $preset $(errors "$run") $(tracked "$run")" >>"$output/ablation.tsv"
     done
-    [ "${KEEP:-0}" = 1 ] || rm -r "$data"
+    [ "$rendered" = 0 ] || [ "${KEEP:-0}" = 1 ] || rm -r "$data"
   done
 }
 

@@ -45,6 +45,46 @@ TEST(Tracker, FollowsARenderedPlane) {
   }
 }
 
+// Landmarks in the lower third of the image that come into the map after the first frames, when that third is
+// another surface at every moment, if the same for both eyes.
+int landmarks_of_water(const TrackerOptions& options) {
+  constexpr int kWaterline = 160, kLearnt = 8;  // row, frame
+  const test::PlaneScene scene(11), water(21);
+  const auto wet = [&](double timestamp, int i) {
+    StereoFrame out = scene.pair(timestamp, pose_at(i));
+    const SE3 elsewhere{Eigen::Matrix3d::Identity(), {7.3 * i, 3.1 * i, 0}};
+    const cv::Range rows(kWaterline, scene.rig().height);
+    water.render(elsewhere).rowRange(rows).copyTo(out.left.rowRange(rows));
+    water.render(elsewhere, water.rig().baseline).rowRange(rows).copyTo(out.right.rowRange(rows));
+    return out;
+  };
+  Tracker tracker(scene.rig(), options);
+  int count = 0;
+  const auto note = [&](const TrackerOutput& out) {
+    for (const KeyframeProposal& proposal : out.proposals)
+      for (const Landmark& landmark : proposal.new_landmarks)
+        count += proposal.keyframe.frame.value >= kLearnt && landmark.pixel.y() > kWaterline + 10;
+  };
+  for (int i = 0; i < 13; ++i) {
+    const TrackerOutput out = tracker.track(wet(0.1 * i, i));
+    EXPECT_EQ(out.result.status, TrackStatus::kTracking) << out.result.reason;
+    EXPECT_LT(position_error(out.result, i), 0.02) << i;
+    note(out);
+  }
+  note(tracker.finish());
+  return count;
+}
+
+TEST(Tracker, LandmarksOfWaterDoNotComeIntoTheMap) {
+  TrackerOptions options = small_options();
+  options.keyframe.max_frames = 3, options.landmarks.count = 800;
+  const int found_out = landmarks_of_water(options);
+  options.trial.enabled = false;
+  const int trusted = landmarks_of_water(options);
+  EXPECT_GT(trusted, 100);
+  EXPECT_LT(found_out, trusted / 10) << found_out << " of " << trusted;
+}
+
 TEST(Tracker, EveryFrameSettlesOnceAndInOrder) {
   const test::PlaneScene scene(12);
   Tracker tracker(scene.rig(), small_options());

@@ -11,13 +11,13 @@
 namespace spslam {
 namespace {
 
-constexpr int kRow = 16;
+constexpr int kRowLength = 16;
 
-// Rows are kRow wide whatever the patch's size, so that the loops have a fixed length; `inside` is 0 in
+// Rows are kRowLength wide whatever the patch's size, so that the loops have a fixed length; `inside` is 0 in
 // the padding.
 struct WholePatch {
-  alignas(32) std::int16_t value[15 * kRow] = {};  // deviation from the mean, rounded
-  alignas(32) std::int16_t inside[kRow] = {};
+  alignas(32) std::int16_t value[15 * kRowLength] = {};  // deviation from the mean, rounded
+  alignas(32) std::int16_t inside[kRowLength] = {};
   int size = 0, sum = 0;  // sum of the values: not quite 0, for the mean was rounded
   float energy = 0;
 };
@@ -36,7 +36,7 @@ bool cut_patch(const cv::Mat& level, int x, int y, int radius, WholePatch& out) 
   for (int r = 0; r < out.size; ++r)
     for (int c = 0; c < out.size; ++c) {
       const int v = row(r)[c] - mean;
-      out.value[r * kRow + c] = static_cast<std::int16_t>(v);
+      out.value[r * kRowLength + c] = static_cast<std::int16_t>(v);
       out.sum += v;
       out.energy += static_cast<float>(v * v);
     }
@@ -48,8 +48,8 @@ SPSLAM_SIMD float correlate(const WholePatch& patch, const unsigned char* corner
   int cross = 0, sum = 0, square = 0;
   for (int r = 0; r < patch.size; ++r) {
     const unsigned char* row = corner + r * step;
-    const std::int16_t* p = patch.value + r * kRow;
-    for (int c = 0; c < kRow; ++c) {
+    const std::int16_t* p = patch.value + r * kRowLength;
+    for (int c = 0; c < kRowLength; ++c) {
       const auto v = static_cast<std::int16_t>(row[c] * patch.inside[c]);
       cross += v * p[c];
       sum += v;

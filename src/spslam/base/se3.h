@@ -43,4 +43,9 @@ struct SE3 {
   }
 };
 
+// Distance, m, of two cameras' centres; poses are camera_from_world.
+inline double distance_of_centres(const SE3& a, const SE3& b) {
+  return (a.inverse().translation - b.inverse().translation).norm();
+}
+
 }  // namespace spslam

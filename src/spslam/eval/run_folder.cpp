@@ -3,6 +3,7 @@
 
 #include "spslam/eval/run_folder.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -79,7 +80,8 @@ void add_facts(const Json& object, const std::string& prefix, ReportInput& repor
     if (value.is_string())
       report.facts.emplace_back(prefix + name, value.get<std::string>());
     else if (value.is_primitive() && !value.is_null())
-      report.facts.emplace_back(prefix + name, value.dump());
+      report.facts.emplace_back(
+          prefix + name, value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : value.dump());
     else if (value.is_object() && !is_stage(value) && name != "stages")
       add_facts(value, prefix + name + ".", report);
   }

@@ -31,11 +31,6 @@ double way_between(const Map& map, KeyframeId from, KeyframeId to) {
   return length;
 }
 
-// Of the cameras' centres.
-double distance_between(const Keyframe& a, const Keyframe& b) {
-  return (a.camera_from_world.inverse().translation - b.camera_from_world.inverse().translation).norm();
-}
-
 LoopClosure closure_of(KeyframeId newer, const Place& place, const Verification& verified) {
   LoopClosure out;
   out.edge = {place.id, newer, verified.newer_from_older, static_cast<double>(verified.inliers)};
@@ -175,7 +170,9 @@ void LoopCloser::examine(const Map& map, const Keyframe& keyframe, LoopCandidate
                       ? way_between(map, candidate.keyframe, keyframe.id)
                       : std::numeric_limits<double>::infinity();
   candidate.stage = LoopStage::kNoReturn;
-  if (candidate.way < options_.min_detour * distance_between(older, keyframe)) return;
+  if (candidate.way <
+      options_.min_detour * distance_of_centres(older.camera_from_world, keyframe.camera_from_world))
+    return;
   const Place place = place_of(map, rig_, candidate.keyframe, verification_.neighbours);
   Verification verified = verify(place, *keyframe.features, rig_, index_.vocabulary(), verification_);
   LoopClosure closure = closure_of(keyframe.id, place, verified);
@@ -198,9 +195,7 @@ bool LoopCloser::is_plausible(const Map& map, const Keyframe& keyframe, LoopCand
   const SE3 by_odometry = keyframe.camera_from_world * older.camera_from_world.inverse();
   const SE3 gap = candidate.verification.newer_from_older * by_odometry.inverse();
   // Of the camera's centres, so that the turn does not count as a way.
-  candidate.gap =
-      (candidate.verification.newer_from_older.inverse().translation - by_odometry.inverse().translation)
-          .norm();
+  candidate.gap = distance_of_centres(candidate.verification.newer_from_older, by_odometry);
   candidate.turn_gap = degrees(gap);
   return candidate.gap <= options_.max_drift_floor + options_.max_drift * candidate.way &&
          candidate.turn_gap <= options_.max_turn_drift_floor + options_.max_turn_drift * candidate.way;
@@ -221,8 +216,7 @@ int LoopCloser::confirm(const Map& map, const Keyframe& keyframe, const Place& p
                          candidate.verification.newer_from_older;
     const SE3 off = verified.newer_from_older * expected.inverse();
     const double sigma = std::hypot(verified.translation_sigma, candidate.verification.translation_sigma);
-    const double distance =
-        (verified.newer_from_older.inverse().translation - expected.inverse().translation).norm();
+    const double distance = distance_of_centres(verified.newer_from_older, expected);
     if (distance <= kAgreementFloor + kAgreementSigmas * sigma && degrees(off) <= kAgreementTurn) ++confirmed;
   }
   return confirmed;

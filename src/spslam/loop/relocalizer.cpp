@@ -8,18 +8,17 @@
 namespace spslam {
 namespace {
 
-constexpr double kPlaceSigmas = 5;
-constexpr double kPlaceFloor = 0.3;       // m; the map may have drifted between its keyframes
-constexpr double kPlaceTurn = M_PI / 60;  // rad
+constexpr double kSamePlaceSigmas = 5;
+constexpr double kSamePlaceFloor = 0.3;       // m; the map may have drifted between its keyframes
+constexpr double kSamePlaceTurn = M_PI / 60;  // rad
 
 bool agree(const Relocalized& a, const Relocalized& b) {
   const SE3 off = a.camera_from_world * b.camera_from_world.inverse();
   const double variance =
       a.covariance.topLeftCorner<3, 3>().trace() + b.covariance.topLeftCorner<3, 3>().trace();
-  const double distance =
-      (a.camera_from_world.inverse().translation - b.camera_from_world.inverse().translation).norm();
-  return distance <= kPlaceFloor + kPlaceSigmas * std::sqrt(variance) &&
-         so3_log(off.rotation).norm() <= kPlaceTurn;
+  const double distance = distance_of_centres(a.camera_from_world, b.camera_from_world);
+  return distance <= kSamePlaceFloor + kSamePlaceSigmas * std::sqrt(variance) &&
+         so3_log(off.rotation).norm() <= kSamePlaceTurn;
 }
 
 }  // namespace

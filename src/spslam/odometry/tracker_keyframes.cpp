@@ -103,7 +103,7 @@ KeyframeProposal Tracker::propose(const WindowFrame& frame) {
   for (const Sighting& s : frame.sightings) {
     const int i = map_.index_of(s.landmark);
     const auto retired = retired_.find(s.landmark);
-    if (i < 0 && retired == retired_.end()) continue;
+    if (i < 0 ? retired == retired_.end() : map_.landmarks[i].on_trial) continue;
     const Landmark& landmark = i >= 0 ? map_.landmarks[i].landmark : retired->second;
     (landmark.host == frame.keyframe ? proposal.new_landmarks : proposal.known_landmarks).push_back(landmark);
   }

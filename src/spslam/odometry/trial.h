@@ -25,15 +25,13 @@ struct TrialOptions {
   static void fields(Self& self, Visitor& visit) {
     visit(self.enabled,
           {"enabled", "", "new landmarks from places where few prove right count only once they have"});
-    visit(self.sightings, {"sightings", "",
-                           "that agree with the motion prove a landmark; as many that do not "
-                           "refute it",
-                           1, 100});
+    visit(self.sightings,
+          {"sightings", "", "agreeing with the motion prove a landmark; as many others refute it", 1, 100});
     visit(self.max_residual, {"max_residual", "sigma", "up to which a sighting agrees", 0.1, 100});
     visit(self.min_share,
           {"min_share", "", "of a place's landmarks proved right below which new ones are on trial", 0, 1});
     visit(self.memory,
-          {"memory", "", "verdicts of a cell of the image after which one is half forgotten", 1, 100000});
+          {"memory", "", "verdicts over which the share of a cell of the image is averaged", 1, 100000});
   }
 };
 

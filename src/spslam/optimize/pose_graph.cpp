@@ -13,7 +13,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double kSmallAngle = 1e-2;  // rad; below it the closed forms lose digits and the series do not
 constexpr double kLargestGraphDamping = 1e8;
-constexpr double kLoosePose = 1e-12;  // a pose without edges stays where it is
+constexpr double kLeastPoseInformation = 1e-12;  // a pose without edges stays where it is
 
 Eigen::Matrix3d inverse_left_jacobian_so3(const Eigen::Vector3d& phi) {
   const double angle = phi.norm();
@@ -150,7 +150,7 @@ class Solver {
     hessian.setFromTriplets(equations_.hessian.begin(), equations_.hessian.end());
     for (int i = 0; i < columns_.count; ++i) {
       double& diagonal = hessian.coeffRef(i, i);
-      diagonal = diagonal * (1 + damping_) + kLoosePose;
+      diagonal = diagonal * (1 + damping_) + kLeastPoseInformation;
     }
     if (!analyzed_) factor_.analyzePattern(hessian);
     analyzed_ = true;
