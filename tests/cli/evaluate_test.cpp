@@ -76,6 +76,31 @@ TEST(Evaluate, OriginsAndShareWithin) {
   EXPECT_NEAR(json["ate_m"]["max"].get<double>(), 0.5, 1e-5);
 }
 
+// The map itself is 2 m beside the truth: localized in it, a run is where the map says, and no error is made.
+TEST(Evaluate, TheRunThatMadeTheMapLaysItOnTheWorld) {
+  const ScratchFolder files;
+  const auto bend = [](double beside) {
+    std::string text;
+    for (int i = 0; i < 20; ++i)
+      text += std::to_string(0.1 * i) + " " + std::to_string(0.3 * i) + " " +
+              std::to_string(0.02 * i * i + beside) + " 0 0 0 0 1\n";
+    return text;
+  };
+  const std::string shifted = files.write("map_estimate.txt", bend(2)),
+                    truth = files.write("map_truth.txt", bend(0));
+  const std::vector<std::string> plain = {"evaluate", shifted, truth, "--align", "none", "--json"};
+  std::vector<std::string> by_map = plain;
+  by_map.insert(by_map.end(), {"--map-estimate", shifted, "--map-truth", truth});
+  const auto error = [](const ProcessResult& result) {
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out)["ate_m"]["rmse"].get<double>();
+  };
+  EXPECT_NEAR(error(run_spslam(plain)), 2, 1e-5);
+  EXPECT_NEAR(error(run_spslam(by_map)), 0, 1e-5);
+  by_map.resize(by_map.size() - 2);
+  EXPECT_THAT(run_spslam(by_map).err, HasSubstr("--map-truth"));
+}
+
 TEST(Evaluate, KittiFilesWithoutTimesGoByIndex) {
   const ScratchFolder files;
   const ProcessResult result = run_spslam({"evaluate", files.write("e.txt", kitti_line(200, 1.01)),

@@ -117,6 +117,86 @@ TEST(LocalizationFilter, ItsCovarianceIsThatOfItsError) {
   EXPECT_NEAR(sum / kRuns, 6, 0.97);
 }
 
+TEST(LocalizationFilter, WhatIsNotPreciseCorrectsButNeitherBeginsNorContradicts) {
+  LocalizationFilter filter({});
+  const SE3 truth;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(filter.add(pose_at(truth), false), FilterAnswer::kPending);
+  EXPECT_FALSE(filter.estimate());
+  filter.add(pose_at(truth));
+  filter.add(pose_at(truth));
+  const double before = filter.estimate()->position_sigma();
+  EXPECT_EQ(filter.add(pose_at(shifted(truth, 0.05)), false), FilterAnswer::kUsed);
+  EXPECT_LT(filter.estimate()->position_sigma(), before);
+  const double corrected = filter.estimate()->camera_from_world.translation.x();
+  EXPECT_GT(corrected, 0);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(filter.add(pose_at(shifted(truth, 2)), false), FilterAnswer::kPending);
+  EXPECT_EQ(filter.estimate()->camera_from_world.translation.x(), corrected);
+}
+
+// Odometry with drift and places with noise, both drawn from their covariances: smoothed, frames are nearer
+// to the truth than the filter had them, those before the first place included.
+TEST(Smooth, EveryFrameIsPlacedByAllThatWasRecognized) {
+  LocalizationOptions options;
+  options.map_sigma = options.map_turn_sigma = 0;
+  options.confirmations = 1;
+  std::mt19937 random(11);
+  double filtered = 0, smoothed = 0;
+  for (int run = 0; run < 20; ++run) {
+    LocalizationFilter filter(options);
+    PlacedRun passage;
+    std::vector<SE3> truth = {kStep}, known = {{}};
+    passage.camera_from_session = {SE3{}};
+    for (int i = 1; i < 60; ++i) {
+      const SE3 step = SE3::exp(draw(random, drift_covariance(kStep, options))) * kStep;
+      truth.push_back(kStep * truth.back());
+      passage.camera_from_session.push_back(step * passage.camera_from_session.back());
+      filter.move(step);
+      if (i % 10 == 5) {
+        UncertainPose measured = pose_at(truth.back());
+        measured.camera_from_world = SE3::exp(draw(random, measured.covariance)) * truth.back();
+        passage.places.push_back({i, measured});
+        filter.add(measured);
+      }
+      known.push_back(filter.estimate() ? filter.estimate()->camera_from_world : SE3{});
+    }
+    const std::vector<SE3> out = smooth(passage, options);
+    ASSERT_EQ(out.size(), truth.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const auto off = [&](const SE3& pose) {
+        return (pose * truth[i].inverse()).log().head<3>().squaredNorm();
+      };
+      if (i >= 5) filtered += off(known[i]);
+      smoothed += off(out[i]);
+    }
+  }
+  EXPECT_LT(smoothed / 60, 0.7 * filtered / 55);
+}
+
+TEST(Smooth, StandingStillAndOnePlaceAreEnoughAndNoneIsNot) {
+  PlacedRun still;
+  still.camera_from_session.assign(4, SE3{});
+  EXPECT_TRUE(smooth(still, {}).empty());
+  const SE3 truth{so3_exp({0, 0.3, 0}), {1, 2, 3}};
+  still.places.push_back({2, pose_at(truth)});
+  const std::vector<SE3> out = smooth(still, {});
+  ASSERT_EQ(out.size(), 4U);
+  for (const SE3& pose : out) EXPECT_LT((pose * truth.inverse()).log().norm(), 1e-6);
+}
+
+TEST(Smooth, AWrongPlaceIsOutvoted) {
+  PlacedRun run;
+  std::vector<SE3> truth = {SE3{}};
+  for (int i = 1; i < 20; ++i) truth.push_back(kStep * truth.back());
+  run.camera_from_session = truth;
+  for (int i = 0; i < 20; i += 4)
+    run.places.push_back({i, pose_at(i == 8 ? shifted(truth[8], 3) : truth[i])});
+  const std::vector<SE3> out = smooth(run, {});
+  ASSERT_EQ(out.size(), truth.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    EXPECT_LT((out[i] * truth[i].inverse()).log().head<3>().norm(), 0.05) << i;
+}
+
 TEST(NearestKeyframes, LookFromNearInTheSameDirection) {
   Map map;
   for (int i = 0; i < 6; ++i) {

@@ -17,6 +17,7 @@ struct EvaluateArguments {
   TrajectoryPairFiles files;
   EvaluationOptions options;
   std::string origin_estimate, origin_truth;
+  TrajectoryPairFiles map;  // of the run that made the map
   bool kitti = false;
   bool json = false;
 };
@@ -29,8 +30,20 @@ SE3 first_pose(const std::string& file) {
   return poses.front().world_from_camera;
 }
 
+// What lays the run that made the map on its truth; the identity without one.
+Similarity truth_from_map(const EvaluateArguments& arguments) {
+  if (arguments.map.estimate.empty()) return {};
+  const TrajectoryPair pair = read_trajectory_pair(arguments.map);
+  EvaluationOptions options = arguments.options;
+  options.align = AlignMode::kSe3;
+  options.association.by_index = pair.by_index;
+  return evaluate(pair.estimate, pair.truth, options).truth_from_estimate;
+}
+
 int evaluate_files(const EvaluateArguments& arguments) {
   TrajectoryPair pair = read_trajectory_pair(arguments.files);
+  const Similarity laid = truth_from_map(arguments);
+  for (StampedPose& pose : pair.estimate) pose.world_from_camera = laid * pose.world_from_camera;
   const SE3 estimate_from_truth =
       first_pose(arguments.origin_estimate).inverse() * first_pose(arguments.origin_truth);
   for (StampedPose& pose : pair.truth) pose.world_from_camera = estimate_from_truth * pose.world_from_camera;
@@ -105,6 +118,15 @@ void add_evaluate(CLI::App& app, Command& chosen) {
       ->type_name("FILE");
   command->add_option("--origin-truth", arguments->origin_truth, "The same for the truth's world")
       ->type_name("FILE");
+  auto* map = command
+                  ->add_option("--map-estimate", arguments->map.estimate,
+                               "Estimated trajectory of the run that made the map in which ESTIMATE was "
+                               "localized: lays the map on the world first, for --align none")
+                  ->type_name("FILE");
+  command->add_option("--map-truth", arguments->map.truth, "Its true trajectory")
+      ->type_name("FILE")
+      ->needs(map);
+  map->needs("--map-truth");
   command->add_flag("--kitti", arguments->kitti, "The KITTI metric of each length too");
   command->add_flag("--json", arguments->json, "Print one JSON object instead of text");
   command->callback([arguments, &chosen] { chosen = [arguments] { return evaluate_files(*arguments); }; });

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spslam/optimize/pose_graph.h"
+
 namespace spslam {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kMaxTurn = 40 * kDegree;  // between views that may show the same
 constexpr double kMetresPerRadian = 5;     // a turn is as bad as so much way
+constexpr double kStandingSigma = 1e-3;    // m and rad; odometry errs that much even where nothing moves
 
 }  // namespace
 
@@ -41,7 +44,7 @@ bool LocalizationFilter::agree(const UncertainPose& a, const UncertainPose& b) c
   return squared_distance(a, b, map_covariance()) <= options_.gate;
 }
 
-FilterAnswer LocalizationFilter::add(const UncertainPose& measured) {
+FilterAnswer LocalizationFilter::add(const UncertainPose& measured, bool precise) {
   if (!measured.camera_from_world.is_finite() || !measured.covariance.allFinite())
     return FilterAnswer::kPending;
   if (estimate_ && agree(*estimate_, measured)) {
@@ -50,8 +53,10 @@ FilterAnswer LocalizationFilter::add(const UncertainPose& measured) {
     agreeing_ = 0;
     return FilterAnswer::kUsed;
   }
-  agreeing_ = pending_ && agree(*pending_, measured) ? agreeing_ + 1 : 1;
-  pending_ = measured;
+  if (!precise) return FilterAnswer::kPending;
+  const bool confirms = pending_ && agree(*pending_, measured);
+  agreeing_ = confirms ? agreeing_ + 1 : 1;
+  pending_ = confirms ? fused(*pending_, measured) : measured;
   if (agreeing_ < options_.confirmations) return FilterAnswer::kPending;
   estimate_ = pending_;
   pending_.reset();
@@ -64,6 +69,30 @@ std::optional<UncertainPose> LocalizationFilter::estimate() const {
   UncertainPose out = *estimate_;
   out.covariance += map_covariance();
   if (!(out.position_sigma() <= options_.max_uncertainty)) return std::nullopt;
+  return out;
+}
+
+std::vector<SE3> smooth(const PlacedRun& run, const LocalizationOptions& options) {
+  if (run.places.empty()) return {};
+  PoseGraph graph;
+  graph.poses.push_back({SE3{}, true});  // the map
+  const PlacedRun::Place& anchor = run.places.front();
+  const SE3 session_from_map =
+      run.camera_from_session[anchor.frame].inverse() * anchor.pose.camera_from_world;
+  for (std::size_t f = 0; f < run.camera_from_session.size(); ++f) {
+    graph.poses.push_back({run.camera_from_session[f] * session_from_map, false});
+    if (f == 0) continue;
+    const SE3 motion = run.camera_from_session[f] * run.camera_from_session[f - 1].inverse();
+    Matrix6d covariance = drift_covariance(motion, options);
+    covariance.diagonal().array() += kStandingSigma * kStandingSigma;
+    graph.edges.push_back({static_cast<int>(f), static_cast<int>(f) + 1, motion, covariance.inverse()});
+  }
+  for (const PlacedRun::Place& place : run.places)
+    graph.edges.push_back(
+        {0, place.frame + 1, place.pose.camera_from_world, place.pose.covariance.inverse(), true});
+  if (solve(graph, SolverOptions{}).status == SolveStatus::kFailed) return {};
+  std::vector<SE3> out;
+  for (std::size_t p = 1; p < graph.poses.size(); ++p) out.push_back(graph.poses[p].camera_from_world);
   return out;
 }
 

@@ -60,8 +60,9 @@ class LocalizationFilter {
 
   // The camera has moved, as odometry says.
   void move(const SE3& present_from_before);
-  // A place was recognized; both are the camera's of now.
-  FilterAnswer add(const UncertainPose& measured);
+  // A place was recognized; its pose is the camera's of now. One that is not `precise`, as where all is far,
+  // corrects what is known, but neither begins nor contradicts it.
+  FilterAnswer add(const UncertainPose& measured, bool precise = true);
   // Odometry was broken off: nothing is known any more.
   void forget() { estimate_.reset(), pending_.reset(), agreeing_ = 0; }
 
@@ -74,12 +75,26 @@ class LocalizationFilter {
 
   LocalizationOptions options_;
   std::optional<UncertainPose> estimate_;
-  std::optional<UncertainPose> pending_;  // the last attempt that did not agree
+  std::optional<UncertainPose> pending_;  // the last attempts that did not agree, but with each other
   int agreeing_ = 0;                      // attempts in a row that agree with each other on it
 };
 
 // Covariance of odometry's error over a motion, of a left perturbation of it.
 Matrix6d drift_covariance(const SE3& motion, const LocalizationOptions& options);
+
+// Frames that odometry saw without a break, and where in the map places recognized put some of them.
+struct PlacedRun {
+  std::vector<SE3> camera_from_session;
+  struct Place {
+    int frame = 0;
+    UncertainPose pose;  // in the map
+  };
+  std::vector<Place> places;  // at least one
+};
+
+// Where in the map each of the frames was, by all that is known in the end: the most likely poses given the
+// places and odometry, the smoother that belongs to the filter. Empty if they could not be found.
+std::vector<SE3> smooth(const PlacedRun& run, const LocalizationOptions& options);
 
 // Keyframes that look from about there in about that direction, nearest first, at most so many.
 std::vector<KeyframeId> nearest_keyframes(const Map& map, const SE3& camera_from_world, int count);

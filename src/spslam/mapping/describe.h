@@ -11,13 +11,10 @@ namespace spslam {
 
 struct DescribeOptions {
   int count = 1000;
-  double depth_radius = 5;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.count, {"count", "", "ORB features kept of a keyframe", 50, 20000});
-    visit(self.depth_radius,
-          {"depth_radius", "px", "how far a feature may be from a landmark to take over its depth", 0, 50});
   }
 };
 

@@ -33,8 +33,12 @@ Localizer::Localizer(const StereoRig& rig, const SlamOptions& options, Map map)
 }
 
 void Localizer::finish() {
+  if (std::exchange(is_finished_, true)) return;
   requests_.close();
   if (worker_.joinable()) worker_.join();
+  if (frames_.empty()) return;
+  take_answers();
+  smooth_pieces();
 }
 
 TrackResult Localizer::place(const TrackerOutput& odometry) {
@@ -46,18 +50,14 @@ TrackResult Localizer::place(const TrackerOutput& odometry) {
     ++stretch_;
     filter_.forget();
   }
-  frames_.push_back({result.frame, result.timestamp, result.status, camera_from_session, stretch_, {}});
+  frames_.push_back({result.frame, result.timestamp, result.status, camera_from_session, stretch_, -1, {}});
   if (odometry.described && result.status != TrackStatus::kLost) ask(odometry.described);
-  std::vector<Answer> answers;
-  {
-    const std::scoped_lock lock(answers_mutex_);
-    answers.swap(answers_);
-  }
-  for (const Answer& answer : answers) take(answer);
+  take_answers();
 
   PlacedFrame& here = frames_.back();
   if (const auto known = filter_.estimate(); known && result.status != TrackStatus::kLost) {
     here.camera_from_world = known->camera_from_world;
+    here.piece = pieces_ - 1;
     result.world_from_camera = known->camera_from_world.inverse();
     result.covariance += known->covariance;
   } else {
@@ -85,11 +85,22 @@ std::optional<Localizer::Answer> Localizer::look(const Request& request) const {
   if (request.expected) guesses = nearest_keyframes(map_, *request.expected, options_.localization.nearest);
   const RelocalizationAttempt attempt =
       relocalize(*request.features, map_, rig_, index_, options_.loop.relocalization, {}, guesses);
-  if (!attempt.found) {
+  // Where everything is far the place is recognized, if not the position to the decimetre.
+  const std::optional<Relocalized>& found = attempt.found ? attempt.found : attempt.imprecise;
+  if (!found) {
     spdlog::debug("not recognized in the map: {}", describe_attempt(attempt));
     return std::nullopt;
   }
-  return Answer{request.index, {attempt.found->camera_from_world, attempt.found->covariance}};
+  return Answer{request.index, {found->camera_from_world, found->covariance}, attempt.found.has_value()};
+}
+
+void Localizer::take_answers() {
+  std::vector<Answer> answers;
+  {
+    const std::scoped_lock lock(answers_mutex_);
+    answers.swap(answers_);
+  }
+  for (const Answer& answer : answers) take(answer);
 }
 
 // The answer is about a frame that may have passed: odometry since then moves it to the present.
@@ -99,20 +110,53 @@ void Localizer::take(const Answer& answer) {
   if (then.stretch != now.stretch || now.status == TrackStatus::kLost) return;
   const SE3 motion = now.camera_from_session * then.camera_from_session.inverse();
   const UncertainPose present = moved(answer.pose, motion, drift_covariance(motion, options_.localization));
-  if (filter_.add(present) != FilterAnswer::kRestarted) return;
+  const FilterAnswer answered = filter_.add(present, answer.precise);
+  (answered == FilterAnswer::kPending ? unused_ : used_).push_back({frames_.size() - 1, present});
+  if (answered != FilterAnswer::kRestarted) return;
   spdlog::info("frame {}: found in the map, uncertainty {:.2f} m", now.frame.value, present.position_sigma());
   place_backwards();
 }
 
-// Frames of this stretch from before the camera was found.
+// Frames of this stretch from before the camera was found, and the places recognized then that agree.
 void Localizer::place_backwards() {
   const std::optional<UncertainPose> known = filter_.estimate();
   if (!known) return;
+  ++pieces_;
   const SE3 session_from_world = frames_.back().camera_from_session.inverse() * known->camera_from_world;
   for (auto it = frames_.rbegin(); it != frames_.rend() && it->stretch == stretch_; ++it) {
     if (it->camera_from_world) break;
     it->camera_from_world = it->camera_from_session * session_from_world;
+    it->piece = pieces_ - 1;
     it->status = TrackStatus::kTracking;
+  }
+  std::erase_if(unused_, [&](const SeenPlace& seen) {
+    const PlacedFrame& then = frames_[seen.index];
+    if (then.piece != pieces_ - 1) return false;
+    const SE3 motion = then.camera_from_session * frames_.back().camera_from_session.inverse();
+    const UncertainPose expected = moved(*known, motion, drift_covariance(motion, options_.localization));
+    if (squared_distance(expected, seen.pose) > options_.localization.gate) return false;
+    used_.push_back(seen);
+    return true;
+  });
+}
+
+void Localizer::smooth_pieces() {
+  std::vector<PlacedRun> runs(static_cast<std::size_t>(pieces_));
+  std::vector<std::vector<std::size_t>> frames(runs.size());  // of each run
+  std::stable_sort(used_.begin(), used_.end(),
+                   [](const SeenPlace& a, const SeenPlace& b) { return a.index < b.index; });
+  auto used = used_.begin();
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    const int piece = frames_[f].piece;
+    for (; used != used_.end() && used->index == f; ++used)
+      if (piece >= 0) runs[piece].places.push_back({static_cast<int>(frames[piece].size()), used->pose});
+    if (piece < 0) continue;
+    runs[piece].camera_from_session.push_back(frames_[f].camera_from_session);
+    frames[piece].push_back(f);
+  }
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const std::vector<SE3> smoothed = smooth(runs[r], options_.localization);
+    for (std::size_t i = 0; i < smoothed.size(); ++i) frames_[frames[r][i]].camera_from_world = smoothed[i];
   }
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Localization in a map that stays as it is (SPEC part 8). Odometry with its local mapping runs in a world of
 // its own, the session; every few frames a place of the map is recognized, and a filter (localization.h) says
-// where in the map the camera is. Nothing that odometry does can harm the map, and nothing in the map can
-// bend odometry.
+// where in the map the camera is; in the end all that was recognized is smoothed into one trajectory. Nothing
+// that odometry does can harm the map, and nothing in the map can bend odometry.
 #pragma once
 
 #include <mutex>
@@ -29,6 +29,7 @@ class Localizer {
   void finish();
 
   // Frames whose pose in the map is known; those before the camera was found too, by odometry backwards.
+  // After finish() smoothed: each by what was recognized before and after it.
   std::vector<TrajectoryPose> trajectory() const;
   const Map& map() const { return map_; }
 
@@ -39,6 +40,7 @@ class Localizer {
     TrackStatus status = TrackStatus::kLost;
     SE3 camera_from_session;
     int stretch = 0;  // of unbroken odometry
+    int piece = -1;   // of a stretch: from one time the camera was found to the next; -1 without a pose
     std::optional<SE3> camera_from_world;
   };
   struct Request {
@@ -49,12 +51,20 @@ class Localizer {
   struct Answer {
     std::size_t index = 0;
     UncertainPose pose;
+    bool precise = true;
+  };
+  // A place recognized, of the frame in which the answer came.
+  struct SeenPlace {
+    std::size_t index = 0;
+    UncertainPose pose;
   };
 
   void ask(std::shared_ptr<const KeyframeFeatures> features);
   std::optional<Answer> look(const Request& request) const;
+  void take_answers();
   void take(const Answer& answer);
   void place_backwards();
+  void smooth_pieces();
 
   StereoRig rig_;
   SlamOptions options_;
@@ -62,7 +72,9 @@ class Localizer {
   KeyframeIndex index_;
   LocalizationFilter filter_;
   std::vector<PlacedFrame> frames_;
-  int stretch_ = 0;
+  std::vector<SeenPlace> used_, unused_;
+  int stretch_ = 0, pieces_ = 0;
+  bool is_finished_ = false;
   BoundedQueue<Request> requests_{1};
   std::mutex answers_mutex_;  // guards the answers
   std::vector<Answer> answers_;
