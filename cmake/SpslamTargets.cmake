@@ -73,7 +73,6 @@ function(spslam_test name)
   target_compile_definitions(${target} PRIVATE
     SPSLAM_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data" SPSLAM_SHARED_DATA="${SPSLAM_SHARED_DATA}")
   spslam_use_build_flags(${target} spslam_test_pch)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # test cases of two files may share names
   gtest_discover_tests(${target} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
 endfunction()
 

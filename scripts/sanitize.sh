@@ -4,7 +4,7 @@
 # Builds the tests with AddressSanitizer and UndefinedBehaviorSanitizer (or with ThreadSanitizer) and runs them.
 #   scripts/sanitize.sh [asan|tsan] [gtest filter]     without the long runs unless given
 # Those of the command line are left out: they start a process each, and what is behind it is tested without it. Each
-# program runs once as a whole: much quicker than a process a case when a process takes long to start.
+# program runs as a whole, or rather in two halves: much quicker than a process a case when a process takes long to start.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-asan}
@@ -22,9 +22,11 @@ export pin=
 mapfile -t names < <(ninja -C "build/$preset" -t targets all | sed -n 's/^\(test_[a-z0-9_]*\): phony$/\1/p' | grep -v '^test_cli$' | sort)
 [ ${#names[@]} -gt 0 ] || { echo "no target is called test_*" >&2; exit 1; }
 cmake --build --preset "$preset" --target "${names[@]}"
-printf '%s\n' "${names[@]}" |
-  xargs -P "$(nproc)" -I{} bash -c '
-    start=$SECONDS
-    program=$(find "build/$2" -type f -name "$1" -perm -u+x)
-    if $pin "$program" </dev/null >"$program.log" 2>&1; then echo "$2: $1 passed in $((SECONDS - start)) s"
-    else cat "$program.log"; echo "$2: $1 FAILED"; exit 1; fi' run {} "$preset"
+# The largest first, in two halves, so that no core is left with the longest at the end.
+printf '%s\n' "${names[@]}" | while read -r name; do find "build/$preset" -type f -name "$name" -perm -u+x -printf '%s %p\n'; done | sort -rn |
+  awk '{ print $2, 0; print $2, 1 }' |
+  xargs -P "$(nproc)" -n 2 bash -c '
+    start=$SECONDS program=$2 log=$2.$3.log
+    if GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$3 $pin "$program" </dev/null >"$log" 2>&1; then
+      echo "$1: ${program##*/}, half $3, passed in $((SECONDS - start)) s"
+    else cat "$log"; echo "$1: ${program##*/}, half $3, FAILED"; exit 1; fi' run "$preset"

@@ -47,6 +47,10 @@ inline SE3 some_motion() {
   return {so3_exp({0.4, -1.1, 0.7}), {12, -5, 80}};
 }
 
+inline std::vector<AssociatedPose> paired(const Trajectory& estimate, const Trajectory& truth) {
+  return associate(estimate, truth, {});
+}
+
 template <class E>
 std::string message_of(const std::function<void()>& f) {
   try {

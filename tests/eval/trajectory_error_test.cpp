@@ -11,12 +11,9 @@ namespace spslam {
 namespace {
 
 using testing_eval::figure_of_eight;
+using testing_eval::paired;
 using testing_eval::straight_line;
 using testing_eval::transformed;
-
-std::vector<AssociatedPose> paired(const Trajectory& estimate, const Trajectory& truth) {
-  return associate(estimate, truth, {});
-}
 
 // The estimate turns by `rate` rad/s about y more than the truth: every motion of 1 s is wrong by that much.
 Trajectory drifting(const Trajectory& truth, double rate) {

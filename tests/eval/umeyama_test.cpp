@@ -11,13 +11,10 @@ namespace spslam {
 namespace {
 
 using testing_eval::figure_of_eight;
+using testing_eval::paired;
 using testing_eval::some_motion;
 using testing_eval::straight_line;
 using testing_eval::transformed;
-
-std::vector<AssociatedPose> paired(const Trajectory& estimate, const Trajectory& truth) {
-  return associate(estimate, truth, {});
-}
 
 double largest_error(const AlignResult& aligned, const std::vector<AssociatedPose>& pairs) {
   double largest = 0;

@@ -4,6 +4,7 @@
 // poor depths, descriptors with flipped bits, and things that nobody saw before.
 #pragma once
 
+#include "features/made_up_descriptors.h"
 #include "spslam/base/random.h"
 #include "spslam/camera/stereo_rig.h"
 #include "spslam/map/map.h"
@@ -21,20 +22,6 @@ struct WorldPoint {
   double angle = 0;
   std::uint8_t octave = 0;
 };
-
-inline Descriptor random_descriptor(Random& random) {
-  Descriptor descriptor;
-  for (std::uint64_t& word : descriptor) word = std::uint64_t{random.next()} << 32U | random.next();
-  return descriptor;
-}
-
-inline Descriptor flipped(Descriptor descriptor, int bits, Random& random) {
-  for (int i = 0; i < bits; ++i) {
-    const std::uint32_t bit = random.below(256);
-    descriptor[bit / 64] ^= std::uint64_t{1} << (bit % 64);
-  }
-  return descriptor;
-}
 
 struct WorldOptions {
   int points = 600;
@@ -114,7 +101,7 @@ inline View see(const std::vector<WorldPoint>& world, const SE3& camera_from_wor
         wrong ? world[random.below(static_cast<std::uint32_t>(world.size()))].descriptor : point.descriptor;
     const Keypoint keypoint{static_cast<float>(at.x()), static_cast<float>(at.y()),
                             wrapped(point.angle + options.roll + 0.05 * random.normal()), 50, point.octave};
-    add_feature(view, static_cast<int>(i), keypoint, flipped(looks, options.flipped_bits, random),
+    add_feature(view, static_cast<int>(i), keypoint, flip_bits(looks, options.flipped_bits, random),
                 known ? w : 0, known ? 1 / (sigma_w * sigma_w) : 0);
   }
   for (int i = 0; i < options.clutter; ++i)

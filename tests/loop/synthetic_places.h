@@ -7,24 +7,11 @@
 
 #include <vector>
 
+#include "features/made_up_descriptors.h"
 #include "spslam/base/random.h"
 #include "spslam/features/types.h"
 
 namespace spslam {
-
-inline Descriptor random_descriptor(Random& random) {
-  Descriptor out = {};
-  for (std::uint64_t& part : out) part = (std::uint64_t{random.next()} << 32U) | random.next();
-  return out;
-}
-
-inline Descriptor with_noise(Descriptor descriptor, int bits, Random& random) {
-  for (int i = 0; i < bits; ++i) {
-    const std::uint32_t bit = random.below(256);
-    descriptor[bit / 64] ^= std::uint64_t{1} << (bit % 64);
-  }
-  return descriptor;
-}
 
 class SyntheticPlaces {
  public:
@@ -32,9 +19,10 @@ class SyntheticPlaces {
       : places_(static_cast<std::size_t>(places)) {
     Random random(seed);
     std::vector<Descriptor> kinds(300);
-    for (Descriptor& kind : kinds) kind = random_descriptor(random);
+    for (Descriptor& kind : kinds) kind = test::random_descriptor(random);
     for (auto& place : places_)
-      for (int i = 0; i < features; ++i) place.push_back(with_noise(kinds[random.below(300)], 60, random));
+      for (int i = 0; i < features; ++i)
+        place.push_back(test::flip_bits(kinds[random.below(300)], 60, random));
   }
   // A view of the place: three quarters of its features with noise in their bits, and as many others as are
   // missing.
@@ -43,8 +31,8 @@ class SyntheticPlaces {
     Random random(static_cast<std::uint64_t>(1000 + view) * 100000 + static_cast<std::uint64_t>(place));
     std::vector<Descriptor> out;
     for (const Descriptor& descriptor : places_[static_cast<std::size_t>(place)])
-      out.push_back(random.uniform() < 0.75 ? with_noise(descriptor, kNoisyBits, random)
-                                            : random_descriptor(random));
+      out.push_back(random.uniform() < 0.75 ? test::flip_bits(descriptor, kNoisyBits, random)
+                                            : test::random_descriptor(random));
     return out;
   }
   std::vector<std::vector<Descriptor>> images_of_all() const {

@@ -65,9 +65,9 @@ TEST(VocabularyTraining, SameBitsAtAnyNumberOfThreads) {
 TEST(VocabularyTraining, FindsTheClusters) {
   Random random(3);
   std::vector<Descriptor> centres(4);
-  for (Descriptor& centre : centres) centre = random_descriptor(random);
+  for (Descriptor& centre : centres) centre = test::random_descriptor(random);
   std::vector<std::vector<Descriptor>> images(2);
-  for (int i = 0; i < 400; ++i) images[i % 2].push_back(with_noise(centres[i % 4], 10, random));
+  for (int i = 0; i < 400; ++i) images[i % 2].push_back(test::flip_bits(centres[i % 4], 10, random));
   VocabularyOptions options;
   options.branching = 4;
   options.levels = 1;
@@ -79,7 +79,7 @@ TEST(VocabularyTraining, FindsTheClusters) {
 
 TEST(VocabularyTraining, WeighsWordsByTheImagesThatHaveThem) {
   Random random(4);
-  const Descriptor everywhere = random_descriptor(random), once = random_descriptor(random);
+  const Descriptor everywhere = test::random_descriptor(random), once = test::random_descriptor(random);
   const std::vector<std::vector<Descriptor>> images = {{everywhere, once}, {everywhere}, {everywhere}, {}};
   VocabularyOptions options;
   options.branching = 2;
@@ -109,7 +109,7 @@ TEST_F(VocabularyTest, EqualDescriptorsHaveEqualWordsAndNearOnesMostly) {
   int same = 0, all = 0;
   for (const Descriptor& descriptor : places_.image(0)) {
     EXPECT_EQ(vocabulary_.word(descriptor), vocabulary_.word(Descriptor(descriptor)));
-    same += vocabulary_.word(descriptor) == vocabulary_.word(with_noise(descriptor, 5, random));
+    same += vocabulary_.word(descriptor) == vocabulary_.word(test::flip_bits(descriptor, 5, random));
     ++all;
   }
   EXPECT_GT(same, 0.6 * all);

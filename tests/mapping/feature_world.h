@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "features/made_up_descriptors.h"
 #include "spslam/base/random.h"
 #include "spslam/map/map.h"
 #include "spslam/optimize/problem.h"
@@ -37,17 +38,6 @@ inline StereoRig feature_rig() {
   rig.baseline = 0.08;
   rig.width = 640, rig.height = 360;
   return rig;
-}
-
-inline Descriptor random_descriptor(Random& random) {
-  Descriptor out;
-  for (std::uint64_t& word : out) word = (std::uint64_t{random.next()} << 32U) | random.next();
-  return out;
-}
-
-inline Descriptor flip_bits(Descriptor descriptor, int bits, Random& random) {
-  for (int i = 0; i < bits; ++i) descriptor[random.below(4)] ^= std::uint64_t{1} << random.below(64);
-  return descriptor;
 }
 
 // An image full of corners.

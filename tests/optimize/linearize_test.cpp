@@ -16,7 +16,7 @@ Vector6d along(int axis, double length) {
   return length * Vector6d::Unit(axis);
 }
 
-Vector6d random_twist(Random& random, double translation, double rotation) {
+Vector6d bounded_twist(Random& random, double translation, double rotation) {
   Vector6d xi;
   for (int i = 0; i < 6; ++i) xi[i] = random.uniform(-1, 1) * (i < 3 ? translation : rotation);
   return xi;
@@ -30,7 +30,7 @@ struct Case {
 
 // Inverse depths near, at, and a little below zero.
 Case draw(Random& random) {
-  return {SE3::exp(random_twist(random, 1, 0.4)),
+  return {SE3::exp(bounded_twist(random, 1, 0.4)),
           {random.uniform(-0.8, 0.8), random.uniform(-0.5, 0.5), 1},
           {random.uniform(0, 640), random.uniform(0, 360), random.uniform(-2, 30)},
           random.below(4) == 0 ? 0 : random.uniform(-0.02, 0.4)};
@@ -91,11 +91,12 @@ TEST(LinearizeObservation, SaysWhatIsBehindTheCamera) {
 
 // Three poses that keep the prior's motion up to a small deviation.
 std::array<SE3, 3> three_poses(Random& random, double ratio, double motion, double deviation) {
-  const Vector6d velocity = random_twist(random, motion, motion);
+  const Vector6d velocity = bounded_twist(random, motion, motion);
   std::array<SE3, 3> poses;
-  poses[0] = SE3::exp(random_twist(random, 2, 1));
+  poses[0] = SE3::exp(bounded_twist(random, 2, 1));
   poses[1] = SE3::exp(velocity) * poses[0];
-  poses[2] = SE3::exp(random_twist(random, deviation, deviation)) * SE3::exp(ratio * velocity) * poses[1];
+  poses[2] =
+      SE3::exp(bounded_twist(random, deviation, deviation)) * SE3::exp(ratio * velocity) * poses[1];
   return poses;
 }
 

@@ -14,7 +14,7 @@ using test::make_ring;
 using test::random_twist;
 using test::Ring;
 
-constexpr double kStep = 1e-6;
+constexpr double kTinyStep = 1e-6;
 
 SolverOptions exact() {
   SolverOptions options;
@@ -29,8 +29,9 @@ TEST(InverseLeftJacobian, IsTheDerivativeOfTheLogarithm) {
     const SE3 at = SE3::exp(xi);
     const Matrix6d analytic = inverse_left_jacobian(xi);
     for (int c = 0; c < 6; ++c) {
-      const Vector6d delta = kStep * Vector6d::Unit(c);
-      const Vector6d numeric = ((SE3::exp(delta) * at).log() - (SE3::exp(-delta) * at).log()) / (2 * kStep);
+      const Vector6d delta = kTinyStep * Vector6d::Unit(c);
+      const Vector6d numeric =
+          ((SE3::exp(delta) * at).log() - (SE3::exp(-delta) * at).log()) / (2 * kTinyStep);
       EXPECT_LT((numeric - analytic.col(c)).norm(), 1e-7) << "size " << size << " column " << c;
     }
   }
@@ -43,11 +44,12 @@ TEST(PoseGraphEdge, JacobiansAreNumericDerivatives) {
     const PoseEdge edge{0, 1, SE3::exp(random_twist(random, 0.5, 0.3)) * j * i.inverse(), {}, false};
     const LinearizedEdge at = linearize(edge, i, j);
     for (int c = 0; c < 6; ++c) {
-      const SE3 plus = SE3::exp(kStep * Vector6d::Unit(c)), minus = SE3::exp(-kStep * Vector6d::Unit(c));
+      const SE3 plus = SE3::exp(kTinyStep * Vector6d::Unit(c)),
+                minus = SE3::exp(-kTinyStep * Vector6d::Unit(c));
       const Vector6d by_i =
-          (linearize(edge, plus * i, j).residual - linearize(edge, minus * i, j).residual) / (2 * kStep);
+          (linearize(edge, plus * i, j).residual - linearize(edge, minus * i, j).residual) / (2 * kTinyStep);
       const Vector6d by_j =
-          (linearize(edge, i, plus * j).residual - linearize(edge, i, minus * j).residual) / (2 * kStep);
+          (linearize(edge, i, plus * j).residual - linearize(edge, i, minus * j).residual) / (2 * kTinyStep);
       EXPECT_LT((by_i - at.by_i.col(c)).norm(), 1e-6);
       EXPECT_LT((by_j - at.by_j.col(c)).norm(), 1e-6);
     }

@@ -10,13 +10,12 @@
 namespace spslam {
 namespace {
 
+using test::kSceneSize;
 using test::Scene;
-
-const cv::Size kSize(640, 360);
 
 TEST(DistanceSegmenter, FindsTheSkyAndItsMirrorImage) {
   DistanceSegmenter segmenter;
-  const SegmentationResult result = segmenter.update(Scene{}.draw(kSize, 1));
+  const SegmentationResult result = segmenter.update(Scene{}.draw(kSceneSize, 1));
   EXPECT_TRUE(result.has_far);
   EXPECT_FALSE(result.held);
   EXPECT_GT(result.threshold, 65);
@@ -27,7 +26,7 @@ TEST(DistanceSegmenter, FindsTheSkyAndItsMirrorImage) {
   EXPECT_EQ(result.regions.at(320, 200), Region::kNear);
   // The outline grows by 25 px and no more than a pixel or two else.
   for (int x = 40; x < 600; x += 20) {
-    const int y = Scene::outline(kSize, x);
+    const int y = Scene::outline(kSceneSize, x);
     EXPECT_EQ(result.regions.at(static_cast<float>(x), static_cast<float>(y + 20)), Region::kFar) << x;
     EXPECT_EQ(result.regions.at(static_cast<float>(x), static_cast<float>(y + 36)), Region::kNear) << x;
   }
@@ -35,7 +34,7 @@ TEST(DistanceSegmenter, FindsTheSkyAndItsMirrorImage) {
 
 TEST(DistanceSegmenter, LabelsKeypointsByTheirPixel) {
   DistanceSegmenter segmenter;
-  const SegmentationResult result = segmenter.update(Scene{}.draw(kSize, 1));
+  const SegmentationResult result = segmenter.update(Scene{}.draw(kSceneSize, 1));
   const std::vector<Keypoint> keypoints = {{320, 30}, {320, 200}, {320, 290}, {-5, 10}};
   const std::vector<Region> expected = {Region::kFar, Region::kNear, Region::kMirror, Region::kNear};
   EXPECT_EQ(label_keypoints(result.regions, keypoints), expected);
@@ -47,11 +46,11 @@ TEST(DistanceSegmenter, LeavesUnimodalFramesNear) {
   const Scene speck{.sky = 0, .land = 60, .water = 60, .mirror = 0};
   for (const Scene& scene : {no_sky, low_contrast, speck}) {
     DistanceSegmenter segmenter;
-    cv::Mat image = scene.draw(kSize, 2);
+    cv::Mat image = scene.draw(kSceneSize, 2);
     image(cv::Rect(30, 30, 40, 40)).setTo(250);
     const SegmentationResult result = segmenter.update(image);
     EXPECT_FALSE(result.has_far);
-    EXPECT_EQ(result.regions.size, kSize);
+    EXPECT_EQ(result.regions.size, kSceneSize);
     EXPECT_EQ(cv::countNonZero(result.regions.mask()), 0);
   }
 }
@@ -73,12 +72,13 @@ TEST(DistanceSegmenter, AcceptsAnyImage) {
 TEST(DistanceSegmenter, DoesNotFlipOnSuddenOverexposure) {
   DistanceSegmenter segmenter;
   SegmentationResult before;
-  for (int i = 0; i < 15; ++i) before = segmenter.update(Scene{}.draw(kSize, i));
+  for (int i = 0; i < 15; ++i) before = segmenter.update(Scene{}.draw(kSceneSize, i));
   ASSERT_TRUE(before.has_far);
   const cv::Mat mask = before.regions.mask();
   double threshold = before.threshold;
   for (int i = 0; i < 5; ++i) {
-    const SegmentationResult result = segmenter.update(Scene{.gain = 2, .offset = 60}.draw(kSize, 100 + i));
+    const SegmentationResult result =
+        segmenter.update(Scene{.gain = 2, .offset = 60}.draw(kSceneSize, 100 + i));
     EXPECT_TRUE(result.held) << i;
     EXPECT_TRUE(result.has_far) << i;
     EXPECT_GT(test::overlap(result.regions.mask(), mask), 0.95) << i;
@@ -86,7 +86,7 @@ TEST(DistanceSegmenter, DoesNotFlipOnSuddenOverexposure) {
     threshold = result.threshold;
   }
   for (int i = 0; i < 5; ++i) {
-    const SegmentationResult after = segmenter.update(Scene{}.draw(kSize, 200 + i));
+    const SegmentationResult after = segmenter.update(Scene{}.draw(kSceneSize, 200 + i));
     EXPECT_GT(test::overlap(after.regions.mask(), mask), 0.9) << i;
   }
 }
@@ -94,9 +94,9 @@ TEST(DistanceSegmenter, DoesNotFlipOnSuddenOverexposure) {
 TEST(DistanceSegmenter, DoesNotFlipInTheDarkUnderABridge) {
   DistanceSegmenter segmenter;
   cv::Mat mask;
-  for (int i = 0; i < 15; ++i) mask = segmenter.update(Scene{}.draw(kSize, i)).regions.mask();
+  for (int i = 0; i < 15; ++i) mask = segmenter.update(Scene{}.draw(kSceneSize, i)).regions.mask();
   for (int i = 0; i < 5; ++i) {
-    const SegmentationResult result = segmenter.update(Scene{.gain = 0.4}.draw(kSize, 100 + i));
+    const SegmentationResult result = segmenter.update(Scene{.gain = 0.4}.draw(kSceneSize, 100 + i));
     EXPECT_GT(test::overlap(result.regions.mask(), mask), 0.95) << i;
   }
 }
@@ -106,14 +106,15 @@ TEST(DistanceSegmenter, FollowsALastingChange) {
   SegmentationOptions options;
   DistanceSegmenter segmenter(options);
   cv::Mat mask;
-  for (int i = 0; i < 15; ++i) mask = segmenter.update(Scene{}.draw(kSize, i)).regions.mask();
+  for (int i = 0; i < 15; ++i) mask = segmenter.update(Scene{}.draw(kSceneSize, i)).regions.mask();
   SegmentationResult result;
   const Scene darker{.gain = 0.55};
-  for (int i = 0; i < 40; ++i) result = segmenter.update(darker.draw(kSize, 100 + i));
+  for (int i = 0; i < 40; ++i) result = segmenter.update(darker.draw(kSceneSize, 100 + i));
   EXPECT_FALSE(result.held);
   EXPECT_TRUE(result.has_far);
   EXPECT_GT(test::overlap(result.regions.mask(), mask), 0.95);
-  for (int i = 0; i < 40; ++i) result = segmenter.update(Scene{.sky = 0, .mirror = 0}.draw(kSize, 200 + i));
+  for (int i = 0; i < 40; ++i)
+    result = segmenter.update(Scene{.sky = 0, .mirror = 0}.draw(kSceneSize, 200 + i));
   EXPECT_FALSE(result.has_far);
 }
 
@@ -122,14 +123,14 @@ TEST(DistanceSegmenter, LimitsTheThresholdsRate) {
   options.rate_limit = 1.5;
   options.window = 1;
   DistanceSegmenter segmenter(options);
-  double last = segmenter.update(Scene{}.draw(kSize, 0)).threshold;
+  double last = segmenter.update(Scene{}.draw(kSceneSize, 0)).threshold;
   for (int i = 1; i < 30; ++i) {
     const Scene brighter{.offset = i > 3 ? 30.0 : 0.0};
-    const double threshold = segmenter.update(brighter.draw(kSize, i)).threshold;
+    const double threshold = segmenter.update(brighter.draw(kSceneSize, i)).threshold;
     EXPECT_LE(std::abs(threshold - last), 1.5 + 1e-9);
     last = threshold;
   }
-  const double free = DistanceSegmenter().update(Scene{.offset = 30}.draw(kSize, 29)).threshold;
+  const double free = DistanceSegmenter().update(Scene{.offset = 30}.draw(kSceneSize, 29)).threshold;
   EXPECT_NEAR(last, free, 1);
 }
 
@@ -138,7 +139,7 @@ TEST(DistanceSegmenter, AveragesTheWindow) {
   options.window = 4;
   options.rate_limit = 255;
   DistanceSegmenter segmenter(options);
-  const cv::Mat first = Scene{}.draw(kSize, 0), second = Scene{.offset = 20}.draw(kSize, 1);
+  const cv::Mat first = Scene{}.draw(kSceneSize, 0), second = Scene{.offset = 20}.draw(kSceneSize, 1);
   const double start = segmenter.update(first).threshold;
   for (int i = 0; i < 3; ++i) segmenter.update(first);
   const double mixed = segmenter.update(second).threshold;
@@ -151,7 +152,7 @@ TEST(DistanceSegmenter, AveragesTheWindow) {
 
 TEST(DistanceSegmenter, StartsAnewForAnotherSize) {
   DistanceSegmenter segmenter;
-  segmenter.update(Scene{}.draw(kSize, 0));
+  segmenter.update(Scene{}.draw(kSceneSize, 0));
   const cv::Mat other = Scene{.offset = -40}.draw({320, 240}, 1);
   const SegmentationResult result = segmenter.update(other);
   EXPECT_EQ(result.regions.size, other.size());
@@ -175,7 +176,7 @@ TEST(DistanceSegmenter, ScalesWithTheWidth) {
 TEST(DistanceSegmenter, IsTheSameEveryTime) {
   DistanceSegmenter a, b;
   for (int i = 0; i < 5; ++i) {
-    const cv::Mat image = Scene{.offset = 3.0 * i}.draw(kSize, i);
+    const cv::Mat image = Scene{.offset = 3.0 * i}.draw(kSceneSize, i);
     const SegmentationResult p = a.update(image), q = b.update(image);
     EXPECT_EQ(p.threshold, q.threshold);
     EXPECT_EQ(cv::countNonZero(p.regions.labels() != q.regions.labels()), 0);

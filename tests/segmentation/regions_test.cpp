@@ -9,7 +9,7 @@
 namespace spslam {
 namespace {
 
-const cv::Size kSize(640, 360);
+using test::kSceneSize;
 
 // Every pixel, not dilated by much, so that the regions themselves are seen.
 SegmentationOptions fine() {
@@ -20,7 +20,7 @@ SegmentationOptions fine() {
 }
 
 cv::Mat dark() {
-  return cv::Mat(kSize, CV_8UC1, cv::Scalar(20));
+  return cv::Mat(kSceneSize, CV_8UC1, cv::Scalar(20));
 }
 
 TEST(FindRegions, KeepsTheTwoLargest) {
@@ -28,7 +28,7 @@ TEST(FindRegions, KeepsTheTwoLargest) {
   image(cv::Rect(0, 0, 640, 100)).setTo(220);     // sky
   image(cv::Rect(200, 280, 200, 60)).setTo(200);  // mirror image
   image(cv::Rect(500, 180, 60, 60)).setTo(240);   // a white wall
-  const RegionMap regions = find_regions(image, 128, fine(), kSize);
+  const RegionMap regions = find_regions(image, 128, fine(), kSceneSize);
   EXPECT_EQ(regions.at(320, 50), Region::kFar);
   EXPECT_EQ(regions.at(300, 310), Region::kMirror);
   EXPECT_EQ(regions.at(530, 210), Region::kNear);
@@ -38,16 +38,16 @@ TEST(FindRegions, KeepsTheTwoLargest) {
 
   SegmentationOptions options = fine();
   options.regions = 1;
-  EXPECT_EQ(find_regions(image, 128, options, kSize).at(300, 310), Region::kNear);
+  EXPECT_EQ(find_regions(image, 128, options, kSceneSize).at(300, 310), Region::kNear);
   options.regions = 3;
-  EXPECT_EQ(find_regions(image, 128, options, kSize).at(530, 210), Region::kMirror);
+  EXPECT_EQ(find_regions(image, 128, options, kSceneSize).at(530, 210), Region::kMirror);
 }
 
 TEST(FindRegions, TakesASkyDividedByATreeForFar) {
   cv::Mat image = dark();
   image(cv::Rect(0, 0, 300, 120)).setTo(220);
   image(cv::Rect(380, 0, 260, 100)).setTo(220);
-  const RegionMap regions = find_regions(image, 128, fine(), kSize);
+  const RegionMap regions = find_regions(image, 128, fine(), kSceneSize);
   EXPECT_EQ(regions.at(100, 50), Region::kFar);
   EXPECT_EQ(regions.at(500, 50), Region::kFar);
   EXPECT_EQ(regions.at(340, 50), Region::kNear);
@@ -56,7 +56,7 @@ TEST(FindRegions, TakesASkyDividedByATreeForFar) {
 TEST(FindRegions, KnowsAMirrorImageWithoutItsSky) {
   cv::Mat image = dark();
   image(cv::Rect(200, 250, 200, 80)).setTo(200);
-  const RegionMap regions = find_regions(image, 128, fine(), kSize);
+  const RegionMap regions = find_regions(image, 128, fine(), kSceneSize);
   EXPECT_EQ(regions.at(300, 300), Region::kMirror);
   EXPECT_EQ(cv::countNonZero(regions.labels() == static_cast<int>(Region::kFar)), 0);
 }
@@ -65,7 +65,7 @@ TEST(FindRegions, GivesTheShoreBetweenSkyAndMirrorToTheSky) {
   cv::Mat image = dark();
   image.rowRange(0, 150).setTo(220);
   image.rowRange(170, 360).setTo(200);
-  const RegionMap regions = find_regions(image, 128, fine(), kSize);
+  const RegionMap regions = find_regions(image, 128, fine(), kSceneSize);
   EXPECT_EQ(regions.at(320, 160), Region::kFar);
   EXPECT_EQ(regions.at(320, 300), Region::kMirror);
 }
@@ -73,17 +73,17 @@ TEST(FindRegions, GivesTheShoreBetweenSkyAndMirrorToTheSky) {
 TEST(FindRegions, IgnoresSpecks) {
   cv::Mat image = dark();
   image(cv::Rect(10, 10, 30, 30)).setTo(255);  // 0.4 % of the image
-  EXPECT_TRUE(find_regions(image, 128, fine(), kSize).empty());
+  EXPECT_TRUE(find_regions(image, 128, fine(), kSceneSize).empty());
   SegmentationOptions options = fine();
   options.minimum_region = 0.003;
-  EXPECT_FALSE(find_regions(image, 128, options, kSize).empty());
+  EXPECT_FALSE(find_regions(image, 128, options, kSceneSize).empty());
 }
 
 TEST(FindRegions, IsNearlyTheSameFromAQuarterOfTheSize) {
-  const cv::Mat image = test::Scene{}.draw(kSize, 1);
+  const cv::Mat image = test::Scene{}.draw(kSceneSize, 1);
   SegmentationOptions options;
-  const RegionMap small = find_regions(shrink(image, 4), 128, options, kSize);
-  const RegionMap full = find_regions(image, 128, options, kSize);
+  const RegionMap small = find_regions(shrink(image, 4), 128, options, kSceneSize);
+  const RegionMap full = find_regions(image, 128, options, kSceneSize);
   for (const Region region : {Region::kFar, Region::kMirror}) {
     const int value = static_cast<int>(region);
     EXPECT_GT(test::overlap(small.labels() == value, full.labels() == value), 0.96) << value;
@@ -91,7 +91,8 @@ TEST(FindRegions, IsNearlyTheSameFromAQuarterOfTheSize) {
 }
 
 TEST(RegionMap, IsNearOutsideOfTheImage) {
-  const RegionMap regions = find_regions(cv::Mat(kSize, CV_8UC1, cv::Scalar(255)), 128, fine(), kSize);
+  const RegionMap regions =
+      find_regions(cv::Mat(kSceneSize, CV_8UC1, cv::Scalar(255)), 128, fine(), kSceneSize);
   EXPECT_EQ(regions.at(0, 0), Region::kFar);
   EXPECT_EQ(regions.at(639.4F, 359.4F), Region::kFar);
   EXPECT_EQ(regions.at(-1, 0), Region::kNear);

@@ -12,6 +12,8 @@
 
 namespace spslam::test {
 
+inline const cv::Size kSceneSize(640, 360);
+
 struct Scene {
   static constexpr double kRoot3 = 1.7320508;
   double sky = 200, land = 60, water = 50, mirror = 170;  // grey

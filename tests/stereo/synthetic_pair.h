@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "features/made_up_descriptors.h"
 #include "spslam/base/random.h"
 #include "spslam/features/types.h"
 
@@ -71,12 +72,6 @@ inline std::vector<cv::Mat> levels_of(const cv::Mat& image, int count = 4) {
     levels.push_back(level);
   }
   return levels;
-}
-
-inline Descriptor random_descriptor(Random& random) {
-  Descriptor d;
-  for (auto& word : d) word = (static_cast<std::uint64_t>(random.next()) << 32U) | random.next();
-  return d;
 }
 
 // Images and a grid of keypoints on level `octave`, each with a descriptor of its own, seen at the rounded

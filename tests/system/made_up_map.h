@@ -4,6 +4,7 @@
 // old ones.
 #pragma once
 
+#include "features/made_up_descriptors.h"
 #include "spslam/base/random.h"
 #include "spslam/camera/stereo_rig.h"
 #include "spslam/map/map.h"
@@ -17,12 +18,6 @@ struct MadeUpMap {
 
 inline StereoRig made_up_rig() {
   return {.fx = 360, .fy = 361, .cx = 319.5, .cy = 159.25, .baseline = 0.08, .width = 640, .height = 320};
-}
-
-inline Descriptor random_descriptor(Random& random) {
-  Descriptor descriptor;
-  for (std::uint64_t& word : descriptor) word = std::uint64_t{random.next()} << 32U | random.next();
-  return descriptor;
 }
 
 inline std::shared_ptr<const KeyframeFeatures> made_up_features(int count, Random& random) {
