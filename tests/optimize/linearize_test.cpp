@@ -95,8 +95,7 @@ std::array<SE3, 3> three_poses(Random& random, double ratio, double motion, doub
   std::array<SE3, 3> poses;
   poses[0] = SE3::exp(bounded_twist(random, 2, 1));
   poses[1] = SE3::exp(velocity) * poses[0];
-  poses[2] =
-      SE3::exp(bounded_twist(random, deviation, deviation)) * SE3::exp(ratio * velocity) * poses[1];
+  poses[2] = SE3::exp(bounded_twist(random, deviation, deviation)) * SE3::exp(ratio * velocity) * poses[1];
   return poses;
 }
 

@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spslam/optimize/pose_graph.h"
-
 namespace spslam {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kMaxTurn = 40 * kDegree;  // between views that may show the same
 constexpr double kMetresPerRadian = 5;     // a turn is as bad as so much way
-constexpr double kStandingSigma = 1e-3;    // m and rad; odometry errs that much even where nothing moves
+
+// What is known by both, as far as there is anything.
+std::optional<UncertainPose> all_of(const std::optional<UncertainPose>& a,
+                                    const std::optional<UncertainPose>& b) {
+  if (!a || !b) return a ? a : b;
+  return fused(*a, *b);
+}
 
 }  // namespace
 
@@ -73,26 +77,28 @@ std::optional<UncertainPose> LocalizationFilter::estimate() const {
 }
 
 std::vector<SE3> smooth(const PlacedRun& run, const LocalizationOptions& options) {
-  if (run.places.empty()) return {};
-  PoseGraph graph;
-  graph.poses.push_back({SE3{}, true});  // the map
-  const PlacedRun::Place& anchor = run.places.front();
-  const SE3 session_from_map =
-      run.camera_from_session[anchor.frame].inverse() * anchor.pose.camera_from_world;
-  for (std::size_t f = 0; f < run.camera_from_session.size(); ++f) {
-    graph.poses.push_back({run.camera_from_session[f] * session_from_map, false});
-    if (f == 0) continue;
-    const SE3 motion = run.camera_from_session[f] * run.camera_from_session[f - 1].inverse();
-    Matrix6d covariance = drift_covariance(motion, options);
-    covariance.diagonal().array() += kStandingSigma * kStandingSigma;
-    graph.edges.push_back({static_cast<int>(f), static_cast<int>(f) + 1, motion, covariance.inverse()});
+  const std::size_t count = run.camera_from_session.size();
+  std::vector<std::optional<UncertainPose>> before(count);  // by the places up to and with each frame
+  std::optional<UncertainPose> known;
+  const auto move = [&](std::size_t from, std::size_t to) {
+    const SE3 motion = run.camera_from_session[to] * run.camera_from_session[from].inverse();
+    if (known) known = moved(*known, motion, drift_covariance(motion, options));
+  };
+  auto next = run.places.begin();
+  for (std::size_t f = 0; f < count; ++f) {
+    if (f > 0) move(f - 1, f);
+    for (; next != run.places.end() && next->frame == f; ++next) known = all_of(known, next->pose);
+    before[f] = known;
   }
-  for (const PlacedRun::Place& place : run.places)
-    graph.edges.push_back(
-        {0, place.frame + 1, place.pose.camera_from_world, place.pose.covariance.inverse(), true});
-  if (solve(graph, SolverOptions{}).status == SolveStatus::kFailed) return {};
-  std::vector<SE3> out;
-  for (std::size_t p = 1; p < graph.poses.size(); ++p) out.push_back(graph.poses[p].camera_from_world);
+  if (!known) return {};
+  std::vector<SE3> out(count);
+  known.reset();
+  auto last = run.places.rbegin();
+  for (std::size_t f = count; f-- > 0;) {
+    if (f + 1 < count) move(f + 1, f);
+    out[f] = all_of(before[f], known)->camera_from_world;
+    for (; last != run.places.rend() && last->frame == f; ++last) known = all_of(known, last->pose);
+  }
   return out;
 }
 

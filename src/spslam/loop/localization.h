@@ -86,14 +86,15 @@ Matrix6d drift_covariance(const SE3& motion, const LocalizationOptions& options)
 struct PlacedRun {
   std::vector<SE3> camera_from_session;
   struct Place {
-    int frame = 0;
+    std::size_t frame = 0;
     UncertainPose pose;  // in the map
   };
-  std::vector<Place> places;  // at least one
+  std::vector<Place> places;  // in order of their frames
 };
 
-// Where in the map each of the frames was, by all that is known in the end: the most likely poses given the
-// places and odometry, the smoother that belongs to the filter. Empty if they could not be found.
+// Where in the map each of the frames was, by all that is known in the end: the filter over the frames
+// before, and over those behind, backwards, both weighed by their covariances (Fraser and Potter's two-filter
+// smoother, 1969). Empty if there is no place.
 std::vector<SE3> smooth(const PlacedRun& run, const LocalizationOptions& options);
 
 // Keyframes that look from about there in about that direction, nearest first, at most so many.

@@ -49,6 +49,7 @@ TrackResult Localizer::place(const TrackerOutput& odometry) {
   if (result.status == TrackStatus::kLost) {
     ++stretch_;
     filter_.forget();
+    unused_.clear();
   }
   frames_.push_back({result.frame, result.timestamp, result.status, camera_from_session, stretch_, -1, {}});
   if (odometry.described && result.status != TrackStatus::kLost) ask(odometry.described);
@@ -129,15 +130,14 @@ void Localizer::place_backwards() {
     it->piece = pieces_ - 1;
     it->status = TrackStatus::kTracking;
   }
-  std::erase_if(unused_, [&](const SeenPlace& seen) {
+  for (const SeenPlace& seen : unused_) {
     const PlacedFrame& then = frames_[seen.index];
-    if (then.piece != pieces_ - 1) return false;
+    if (then.piece != pieces_ - 1) continue;
     const SE3 motion = then.camera_from_session * frames_.back().camera_from_session.inverse();
     const UncertainPose expected = moved(*known, motion, drift_covariance(motion, options_.localization));
-    if (squared_distance(expected, seen.pose) > options_.localization.gate) return false;
-    used_.push_back(seen);
-    return true;
-  });
+    if (squared_distance(expected, seen.pose) <= options_.localization.gate) used_.push_back(seen);
+  }
+  unused_.clear();
 }
 
 void Localizer::smooth_pieces() {
@@ -149,7 +149,7 @@ void Localizer::smooth_pieces() {
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     const int piece = frames_[f].piece;
     for (; used != used_.end() && used->index == f; ++used)
-      if (piece >= 0) runs[piece].places.push_back({static_cast<int>(frames[piece].size()), used->pose});
+      if (piece >= 0) runs[piece].places.push_back({frames[piece].size(), used->pose});
     if (piece < 0) continue;
     runs[piece].camera_from_session.push_back(frames_[f].camera_from_session);
     frames[piece].push_back(f);
