@@ -132,6 +132,10 @@ TEST(LocalizationFilter, WhatIsNotPreciseCorrectsButNeitherBeginsNorContradicts)
   for (int i = 0; i < 5; ++i)
     EXPECT_EQ(filter.add(pose_at(shifted(truth, 2)), false), FilterAnswer::kPending);
   EXPECT_EQ(filter.estimate()->camera_from_world.translation.x(), corrected);
+  // Between two precise contradictions it refutes neither.
+  EXPECT_EQ(filter.add(pose_at(shifted(truth, 2))), FilterAnswer::kPending);
+  EXPECT_EQ(filter.add(pose_at(truth, 3, 0.1), false), FilterAnswer::kUsed);
+  EXPECT_EQ(filter.add(pose_at(shifted(truth, 2))), FilterAnswer::kRestarted);
 }
 
 // Odometry with drift and places with noise, both drawn from their covariances: smoothed, frames are nearer

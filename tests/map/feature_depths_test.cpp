@@ -55,10 +55,11 @@ TEST(FeatureDepths, AreThoseOfTheNearestLandmarkFromWhereTheKeyframeIs) {
   EXPECT_DOUBLE_EQ(own[1].inverse_depth, 0.05);
   EXPECT_EQ(own[2].information, 0) << "farther than " << kDepthRadius << " px from either";
   EXPECT_DOUBLE_EQ(own[3].inverse_depth, 0.05);
-  // 5 m nearer; what is known of the distance, in m, stays the same.
+  // 5 m nearer; what is known of the distance, in m, stays the same: the information of 1/5 is to that of
+  // 1/10 as the fourth power of the distances.
   const std::vector<FeatureDepth> ahead = feature_depths(map, *map.find(KeyframeId{1}), corners);
   EXPECT_DOUBLE_EQ(ahead[0].inverse_depth, 1 / 5.0);
-  EXPECT_DOUBLE_EQ(ahead[0].information, 100 * 0.25);
+  EXPECT_DOUBLE_EQ(ahead[0].information, 100 / 16.0);
   EXPECT_DOUBLE_EQ(ahead[1].inverse_depth, 1 / 15.0);
 }
 

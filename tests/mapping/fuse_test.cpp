@@ -88,12 +88,13 @@ TEST(FuseDuplicates, WhatBothSidesKnewOfTheDepthAddsUp) {
   map.set_estimate(kOlder, map.find(kOlder)->inverse_depth + 0.005, 3e4);
   const double truth = map.find(kNewer)->inverse_depth;
   const double nearer = 1 / (5 * truth);  // the new host stands nearer than the old one, which was 5 m away
-  const double added = 3e4 * nearer * nearer;
+  const double gain = std::pow(nearer, 4);  // what is known of a distance, in m, is the same from nearby
+  const double added = 3e4 * gain;
   ASSERT_EQ(fused_in(d), 1);
   const Landmark& kept = *map.find(kNewer);
-  EXPECT_NEAR(kept.inverse_depth - truth, added / (added + 1e4) * 0.005 / nearer, 0.0005);
+  EXPECT_NEAR(kept.inverse_depth - truth, added / (added + 1e4) * 0.005 / (nearer * nearer), 0.0005);
   EXPECT_NEAR(kept.information, 1e4 + added, 1e3);
-  EXPECT_NEAR(kept.stereo_information, 5e3 * (1 + nearer * nearer), 100);
+  EXPECT_NEAR(kept.stereo_information, 5e3 * (1 + gain), 100);
 }
 
 TEST(FuseDuplicates, NeighboursStayTwo) {

@@ -95,6 +95,32 @@ TEST(Localizer, IsFoundAgainAfterALoss) {
     result = slam.track(at_time(scene_pairs()[static_cast<std::size_t>(2 + tries)], time += 0.1));
   EXPECT_EQ(result.status, TrackStatus::kTracking) << result.reason;
   EXPECT_LT(distance_from_truth(result.world_from_camera, 1 + tries), 0.05);
+  slam.finish();
+  // Both passages, each smoothed by itself; nothing of the time between.
+  const std::vector<TrajectoryPose> trajectory = slam.trajectory();
+  const auto later = std::find_if(trajectory.begin(), trajectory.end(), [](const TrajectoryPose& pose) {
+    return pose.frame.value >= kSceneFrames + 30;
+  });
+  ASSERT_NE(later, trajectory.end());
+  EXPECT_EQ(later->frame.value, kSceneFrames + 30);
+  for (auto pose = trajectory.begin(); pose != later; ++pose)
+    if (pose->frame.value < kSceneFrames) {
+      EXPECT_LT(distance_from_truth(pose->world_from_camera, static_cast<int>(pose->frame.value)), 0.05);
+    }
+  for (auto pose = later; pose != trajectory.end(); ++pose)
+    EXPECT_LT(distance_from_truth(pose->world_from_camera,
+                                  2 + static_cast<int>(pose->frame.value) - kSceneFrames - 30),
+              0.05);
+}
+
+// Threads that answer late: what the last answers say is not lost.
+TEST(Localizer, AnswersThatComeAfterTheLastFrameCount) {
+  Slam slam(scene_rig(), localizing(Threads::kParallel), known_map());
+  for (int i = 0; i < kSceneFrames; ++i)
+    slam.track(at_time(scene_pairs()[static_cast<std::size_t>(i)], 100 + 0.1 * i));
+  slam.finish();
+  for (const TrajectoryPose& pose : slam.trajectory())
+    EXPECT_LT(distance_from_truth(pose.world_from_camera, static_cast<int>(pose.frame.value)), 0.1);
 }
 
 TEST(Localizer, ThreadsFindItToo) {

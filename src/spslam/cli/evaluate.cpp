@@ -30,26 +30,33 @@ SE3 first_pose(const std::string& file) {
   return poses.front().world_from_camera;
 }
 
-// What lays the run that made the map on its truth; the identity without one.
-Similarity truth_from_map(const EvaluateArguments& arguments) {
-  if (arguments.map.estimate.empty()) return {};
-  const TrajectoryPair pair = read_trajectory_pair(arguments.map);
-  EvaluationOptions options = arguments.options;
-  options.align = AlignMode::kSe3;
+// The run that made the map, laid on its truth.
+Evaluation evaluate_map(const EvaluateArguments& arguments) {
+  if (arguments.options.align != AlignMode::kNone)
+    throw OptionError("--map-estimate: the map lays the estimate on the truth, so give --align none with it");
+  TrajectoryPairFiles files = arguments.map;
+  files.estimate_format = arguments.files.estimate_format;
+  files.truth_format = arguments.files.truth_format;
+  const TrajectoryPair pair = read_trajectory_pair(files);
+  EvaluationOptions options;
+  options.association = arguments.options.association;
   options.association.by_index = pair.by_index;
-  return evaluate(pair.estimate, pair.truth, options).truth_from_estimate;
+  return evaluate(pair.estimate, pair.truth, options);
 }
 
 int evaluate_files(const EvaluateArguments& arguments) {
   TrajectoryPair pair = read_trajectory_pair(arguments.files);
-  const Similarity laid = truth_from_map(arguments);
-  for (StampedPose& pose : pair.estimate) pose.world_from_camera = laid * pose.world_from_camera;
+  Evaluation map;
+  if (!arguments.map.estimate.empty()) map = evaluate_map(arguments);
+  for (StampedPose& pose : pair.estimate)
+    pose.world_from_camera = map.truth_from_estimate * pose.world_from_camera;
   const SE3 estimate_from_truth =
       first_pose(arguments.origin_estimate).inverse() * first_pose(arguments.origin_truth);
   for (StampedPose& pose : pair.truth) pose.world_from_camera = estimate_from_truth * pose.world_from_camera;
   EvaluationOptions options = arguments.options;
   options.association.by_index = pair.by_index;
-  const Evaluation evaluation = evaluate(pair.estimate, pair.truth, options);
+  Evaluation evaluation = evaluate(pair.estimate, pair.truth, options);
+  for (const std::string& note : map.notes) evaluation.notes.push_back("the map: " + note);
   const std::string text =
       arguments.json ? json_report(evaluation) : brief_report(evaluation, {.kitti_lengths = arguments.kitti});
   std::fputs(text.c_str(), stdout);

@@ -14,8 +14,8 @@ constexpr double kMaxTurn = 40 * kDegree;  // between views that may show the sa
 constexpr double kMetresPerRadian = 5;     // a turn is as bad as so much way
 
 // What is known by both, as far as there is anything.
-std::optional<UncertainPose> all_of(const std::optional<UncertainPose>& a,
-                                    const std::optional<UncertainPose>& b) {
+std::optional<UncertainPose> both(const std::optional<UncertainPose>& a,
+                                  const std::optional<UncertainPose>& b) {
   if (!a || !b) return a ? a : b;
   return fused(*a, *b);
 }
@@ -51,10 +51,10 @@ bool LocalizationFilter::agree(const UncertainPose& a, const UncertainPose& b) c
 FilterAnswer LocalizationFilter::add(const UncertainPose& measured, bool precise) {
   if (!measured.camera_from_world.is_finite() || !measured.covariance.allFinite())
     return FilterAnswer::kPending;
+  if (!precise && !estimate()) return FilterAnswer::kPending;
   if (estimate_ && agree(*estimate_, measured)) {
     estimate_ = fused(*estimate_, measured);
-    pending_.reset();
-    agreeing_ = 0;
+    if (precise) pending_.reset(), agreeing_ = 0;
     return FilterAnswer::kUsed;
   }
   if (!precise) return FilterAnswer::kPending;
@@ -80,14 +80,14 @@ std::vector<SE3> smooth(const PlacedRun& run, const LocalizationOptions& options
   const std::size_t count = run.camera_from_session.size();
   std::vector<std::optional<UncertainPose>> before(count);  // by the places up to and with each frame
   std::optional<UncertainPose> known;
-  const auto move = [&](std::size_t from, std::size_t to) {
+  const auto go = [&](std::size_t from, std::size_t to) {
     const SE3 motion = run.camera_from_session[to] * run.camera_from_session[from].inverse();
     if (known) known = moved(*known, motion, drift_covariance(motion, options));
   };
   auto next = run.places.begin();
   for (std::size_t f = 0; f < count; ++f) {
-    if (f > 0) move(f - 1, f);
-    for (; next != run.places.end() && next->frame == f; ++next) known = all_of(known, next->pose);
+    if (f > 0) go(f - 1, f);
+    for (; next != run.places.end() && next->frame == f; ++next) known = both(known, next->pose);
     before[f] = known;
   }
   if (!known) return {};
@@ -95,9 +95,9 @@ std::vector<SE3> smooth(const PlacedRun& run, const LocalizationOptions& options
   known.reset();
   auto last = run.places.rbegin();
   for (std::size_t f = count; f-- > 0;) {
-    if (f + 1 < count) move(f + 1, f);
-    out[f] = all_of(before[f], known)->camera_from_world;
-    for (; last != run.places.rend() && last->frame == f; ++last) known = all_of(known, last->pose);
+    if (f + 1 < count) go(f + 1, f);
+    out[f] = both(before[f], known)->camera_from_world;
+    for (; last != run.places.rend() && last->frame == f; ++last) known = both(known, last->pose);
   }
   return out;
 }

@@ -83,13 +83,13 @@ class LocalizationFilter {
 Matrix6d drift_covariance(const SE3& motion, const LocalizationOptions& options);
 
 // Frames that odometry saw without a break, and where in the map places recognized put some of them.
+struct SeenPlace {
+  std::size_t frame = 0;
+  UncertainPose pose;  // in the map
+};
 struct PlacedRun {
   std::vector<SE3> camera_from_session;
-  struct Place {
-    std::size_t frame = 0;
-    UncertainPose pose;  // in the map
-  };
-  std::vector<Place> places;  // in order of their frames
+  std::vector<SeenPlace> places;  // in order of their frames
 };
 
 // Where in the map each of the frames was, by all that is known in the end: the filter over the frames

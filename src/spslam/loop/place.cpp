@@ -4,6 +4,7 @@
 #include "spslam/loop/place.h"
 
 #include "spslam/map/feature_depths.h"
+#include "spslam/map/moved_point.h"
 
 namespace spslam {
 namespace {
@@ -50,11 +51,11 @@ void add_source(const StereoRig& rig, KeyframeId id, std::shared_ptr<const Keyfr
                      is_known ? depth.information : 0, static_cast<int>(place.sources.size()),
                      static_cast<int>(i)};
     if (!is_own) {
-      const Eigen::Vector3d x = motion.rotation * point.bearing + point.inverse_depth * motion.translation;
-      if (!(x.z() > kLeastRatio) || x.head<2>().norm() > kWidest * x.z()) continue;
-      point.bearing = x / x.z();
-      point.inverse_depth /= x.z();
-      point.information *= x.z() * x.z();
+      const MovedPoint moved = move_point(motion, point.bearing, point.inverse_depth);
+      if (!(moved.depth_ratio > kLeastRatio) || moved.bearing.head<2>().norm() > kWidest) continue;
+      point.bearing = moved.bearing;
+      point.inverse_depth = moved.inverse_depth;
+      point.information *= moved.information_gain;
     }
     source.point[i] = static_cast<int>(place.points.size());
     place.points.push_back(point);

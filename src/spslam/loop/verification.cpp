@@ -17,6 +17,7 @@ constexpr int kGuidedRounds = 2;
 constexpr int kSolverSteps = 15;
 constexpr int kCells = 8;         // along each side of the image
 constexpr double kWellKnown = 4;  // standard deviations of an inverse depth from 0 that is compared
+constexpr double kUnknown = 1e6;  // m^2 and rad^2
 constexpr int kLeastScaled = 8;   // ratios of depths that a scale takes
 
 // One verification, step by step.
@@ -91,7 +92,7 @@ class Verifier {
   VerificationStage judge() {
     out_.visible = all_.visible(out_.newer_from_older);
     out_.cells = count_cells();
-    if (!trim()) return VerificationStage::kUncertain;
+    if (!trim()) out_.covariance = kUnknown * Matrix6d::Identity();
     add_common_bias();
     const auto deviation = [&](int first) {
       const Eigen::Matrix3d block = out_.covariance.block<3, 3>(first, first);

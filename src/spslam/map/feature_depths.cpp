@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "spslam/map/moved_point.h"
+
 namespace spslam {
 namespace {
 
@@ -21,12 +23,11 @@ std::vector<DepthAt> sighted_depths(const Map& map, const Keyframe& keyframe) {
     const Keyframe* host = landmark ? map.find(landmark->host) : nullptr;
     if (!host) continue;
     const SE3 motion = keyframe.camera_from_world * host->camera_from_world.inverse();
-    const double ratio =
-        (motion.rotation * landmark->bearing + landmark->inverse_depth * motion.translation).z();
-    if (!(ratio > 1e-3)) continue;
+    const MovedPoint point = move_point(motion, landmark->bearing, landmark->inverse_depth);
+    if (!(point.depth_ratio > 1e-3)) continue;
     out.push_back({static_cast<float>(sighting.measured.x()),
                    static_cast<float>(sighting.measured.y()),
-                   {landmark->inverse_depth / ratio, landmark->information * ratio * ratio}});
+                   {point.inverse_depth, landmark->information * point.information_gain}});
   }
   std::sort(out.begin(), out.end(), [](const DepthAt& a, const DepthAt& b) { return a.x < b.x; });
   return out;

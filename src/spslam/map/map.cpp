@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "spslam/map/moved_point.h"
+
 namespace spslam {
 namespace {
 
@@ -136,16 +138,14 @@ bool Map::move_to_next_host(const Landmark& landmark, KeyframeId from) {
     const Keyframe& host = keyframes_.at(id);
     const Sighting& sighting = *find_sighting(host, landmark.id);
     const SE3 motion = host.camera_from_world * old_host.camera_from_world.inverse();
-    // x = R b + w t is the point divided by its depth in the old host: its z is the ratio of the depths.
-    const Eigen::Vector3d x =
-        motion.rotation * landmark.bearing + landmark.inverse_depth * motion.translation;
-    if (!(x.z() > 1e-3) || sighting.inverse_sigma.x() <= 0) continue;
+    const MovedPoint point = move_point(motion, landmark.bearing, landmark.inverse_depth);
+    if (!(point.depth_ratio > 1e-3) || sighting.inverse_sigma.x() <= 0) continue;
     Landmark& moved = landmarks_.at(landmark.id);
     moved.host = id;
     moved.pixel = sighting.measured.head<2>().cast<float>();
-    moved.bearing = x / x.z();
-    moved.inverse_depth /= x.z();
-    moved.information *= x.z() * x.z();
+    moved.bearing = point.bearing;
+    moved.inverse_depth = point.inverse_depth;
+    moved.information *= point.information_gain;
     return true;
   }
   return false;

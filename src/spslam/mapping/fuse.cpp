@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "spslam/map/moved_point.h"
 #include "spslam/optimize/problem.h"
 
 namespace spslam {
@@ -150,10 +151,10 @@ class Fusion {
         map_.find(kept.host)->camera_from_world * map_.find(gone.host)->camera_from_world.inverse();
     const auto merge = [&](double inverse_depth, double information, double& into, double& known) {
       if (!(information > 0)) return;
-      const double ratio = (motion.rotation * gone.bearing + inverse_depth * motion.translation).z();
-      if (!(ratio > 1e-3)) return;
-      const double sum = known + information * ratio * ratio;
-      into = (known * into + information * ratio * ratio * (inverse_depth / ratio)) / sum;
+      const MovedPoint point = move_point(motion, gone.bearing, inverse_depth);
+      if (!(point.depth_ratio > 1e-3)) return;
+      const double more = information * point.information_gain, sum = known + more;
+      into = (known * into + more * point.inverse_depth) / sum;
       known = sum;
     };
     merge(gone.inverse_depth, gone.information, kept.inverse_depth, kept.information);

@@ -32,10 +32,14 @@ Localizer::Localizer(const StereoRig& rig, const SlamOptions& options, Map map)
   });
 }
 
-void Localizer::finish() {
-  if (std::exchange(is_finished_, true)) return;
+void Localizer::stop() {
   requests_.close();
   if (worker_.joinable()) worker_.join();
+}
+
+void Localizer::finish() {
+  if (std::exchange(is_finished_, true)) return;
+  stop();
   if (frames_.empty()) return;
   take_answers();
   smooth_pieces();
@@ -51,12 +55,15 @@ TrackResult Localizer::place(const TrackerOutput& odometry) {
     filter_.forget();
     unused_.clear();
   }
-  frames_.push_back({result.frame, result.timestamp, result.status, camera_from_session, stretch_, -1, {}});
+  const int stretch = result.status == TrackStatus::kLost ? kLost : stretch_;
+  frames_.push_back({result.frame, result.timestamp, result.status, camera_from_session, stretch, kLost, {}});
   if (odometry.described && result.status != TrackStatus::kLost) ask(odometry.described);
   take_answers();
 
   PlacedFrame& here = frames_.back();
   if (const auto known = filter_.estimate(); known && result.status != TrackStatus::kLost) {
+    // Over frames without a pose nobody knows the way that odometry erred on.
+    if (frames_.size() < 2 || !frames_[frames_.size() - 2].camera_from_world) ++pieces_;
     here.camera_from_world = known->camera_from_world;
     here.piece = pieces_ - 1;
     result.world_from_camera = known->camera_from_world.inverse();
@@ -108,12 +115,19 @@ void Localizer::take_answers() {
 void Localizer::take(const Answer& answer) {
   const PlacedFrame& then = frames_[answer.index];
   const PlacedFrame& now = frames_.back();
-  if (then.stretch != now.stretch || now.status == TrackStatus::kLost) return;
+  if (then.stretch != now.stretch) return;
   const SE3 motion = now.camera_from_session * then.camera_from_session.inverse();
   const UncertainPose present = moved(answer.pose, motion, drift_covariance(motion, options_.localization));
+  const SeenPlace seen{frames_.size() - 1, present};
   const FilterAnswer answered = filter_.add(present, answer.precise);
-  (answered == FilterAnswer::kPending ? unused_ : used_).push_back({frames_.size() - 1, present});
-  if (answered != FilterAnswer::kRestarted) return;
+  if (answered == FilterAnswer::kPending) {
+    unused_.push_back(seen);
+    return;
+  }
+  if (answered == FilterAnswer::kRestarted)
+    std::erase_if(used_, [&](const SeenPlace& other) { return other.frame == seen.frame; });
+  used_.push_back(seen);
+  if (answered == FilterAnswer::kUsed) return;
   spdlog::info("frame {}: found in the map, uncertainty {:.2f} m", now.frame.value, present.position_sigma());
   place_backwards();
 }
@@ -123,6 +137,7 @@ void Localizer::place_backwards() {
   const std::optional<UncertainPose> known = filter_.estimate();
   if (!known) return;
   ++pieces_;
+  frames_.back().camera_from_world.reset();
   const SE3 session_from_world = frames_.back().camera_from_session.inverse() * known->camera_from_world;
   for (auto it = frames_.rbegin(); it != frames_.rend() && it->stretch == stretch_; ++it) {
     if (it->camera_from_world) break;
@@ -131,7 +146,7 @@ void Localizer::place_backwards() {
     it->status = TrackStatus::kTracking;
   }
   for (const SeenPlace& seen : unused_) {
-    const PlacedFrame& then = frames_[seen.index];
+    const PlacedFrame& then = frames_[seen.frame];
     if (then.piece != pieces_ - 1) continue;
     const SE3 motion = then.camera_from_session * frames_.back().camera_from_session.inverse();
     const UncertainPose expected = moved(*known, motion, drift_covariance(motion, options_.localization));
@@ -144,13 +159,13 @@ void Localizer::smooth_pieces() {
   std::vector<PlacedRun> runs(static_cast<std::size_t>(pieces_));
   std::vector<std::vector<std::size_t>> frames(runs.size());  // of each run
   std::stable_sort(used_.begin(), used_.end(),
-                   [](const SeenPlace& a, const SeenPlace& b) { return a.index < b.index; });
+                   [](const SeenPlace& a, const SeenPlace& b) { return a.frame < b.frame; });
   auto used = used_.begin();
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     const int piece = frames_[f].piece;
-    for (; used != used_.end() && used->index == f; ++used)
-      if (piece >= 0) runs[piece].places.push_back({frames[piece].size(), used->pose});
-    if (piece < 0) continue;
+    for (; used != used_.end() && used->frame == f; ++used)
+      if (piece != kLost) runs[piece].places.push_back({frames[piece].size(), used->pose});
+    if (piece == kLost) continue;
     runs[piece].camera_from_session.push_back(frames_[f].camera_from_session);
     frames[piece].push_back(f);
   }

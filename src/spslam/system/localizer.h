@@ -19,7 +19,7 @@ class Localizer {
  public:
   // Throws OptionError for a map without keyframes.
   Localizer(const StereoRig& rig, const SlamOptions& options, Map map);
-  ~Localizer() { finish(); }
+  ~Localizer() { stop(); }
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
 
@@ -34,13 +34,14 @@ class Localizer {
   const Map& map() const { return map_; }
 
  private:
+  static constexpr int kLost = -1;
   struct PlacedFrame {
     FrameId frame;
     double timestamp = 0;
     TrackStatus status = TrackStatus::kLost;
     SE3 camera_from_session;
-    int stretch = 0;  // of unbroken odometry
-    int piece = -1;   // of a stretch: from one time the camera was found to the next; -1 without a pose
+    int stretch = kLost;  // of unbroken odometry
+    int piece = kLost;    // of a stretch: frames whose pose in the map is known, until it is found anew
     std::optional<SE3> camera_from_world;
   };
   struct Request {
@@ -53,14 +54,10 @@ class Localizer {
     UncertainPose pose;
     bool precise = true;
   };
-  // A place recognized, of the frame in which the answer came.
-  struct SeenPlace {
-    std::size_t index = 0;
-    UncertainPose pose;
-  };
 
   void ask(std::shared_ptr<const KeyframeFeatures> features);
   std::optional<Answer> look(const Request& request) const;
+  void stop();
   void take_answers();
   void take(const Answer& answer);
   void place_backwards();
@@ -72,7 +69,7 @@ class Localizer {
   KeyframeIndex index_;
   LocalizationFilter filter_;
   std::vector<PlacedFrame> frames_;
-  std::vector<SeenPlace> used_, unused_;
+  std::vector<SeenPlace> used_, unused_;  // of the frames in which the answers came
   int stretch_ = 0, pieces_ = 0;
   bool is_finished_ = false;
   BoundedQueue<Request> requests_{1};
