@@ -87,7 +87,7 @@ TEST(FuseDuplicates, WhatBothSidesKnewOfTheDepthAddsUp) {
   Map& map = d.world.map;
   map.set_estimate(kOlder, map.find(kOlder)->inverse_depth + 0.005, 3e4);
   const double truth = map.find(kNewer)->inverse_depth;
-  const double nearer = 1 / (5 * truth);  // the new host stands nearer than the old one, which was 5 m away
+  const double nearer = 1 / (5 * truth);    // the new host stands nearer than the old one, which was 5 m away
   const double gain = std::pow(nearer, 4);  // what is known of a distance, in m, is the same from nearby
   const double added = 3e4 * gain;
   ASSERT_EQ(fused_in(d), 1);
