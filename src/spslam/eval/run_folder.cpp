@@ -3,7 +3,8 @@
 
 #include "spslam/eval/run_folder.h"
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <charconv>
 #include <limits>

@@ -82,11 +82,12 @@ class LocalizationFilter {
 // Covariance of odometry's error over a motion, of a left perturbation of it.
 Matrix6d drift_covariance(const SE3& motion, const LocalizationOptions& options);
 
-// Frames that odometry saw without a break, and where in the map places recognized put some of them.
+// Where in the map a place that was recognized puts a frame.
 struct SeenPlace {
   std::size_t frame = 0;
-  UncertainPose pose;  // in the map
+  UncertainPose pose;
 };
+// Frames that odometry saw without a break, and the places recognized in some of them.
 struct PlacedRun {
   std::vector<SE3> camera_from_session;
   std::vector<SeenPlace> places;  // in order of their frames
