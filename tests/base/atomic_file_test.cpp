@@ -12,6 +12,7 @@
 #include <fstream>
 #include <string>
 
+#include "base/temporary_folder.h"
 #include "spslam/base/error.h"
 
 namespace spslam {
@@ -22,14 +23,6 @@ using testing::HasSubstr;
 
 class AtomicFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("atomic_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static void write(const fs::path& path, const std::string& text) {
     write_file_atomically(path, std::as_bytes(std::span(text)));
   }
@@ -49,7 +42,8 @@ class AtomicFile : public testing::Test {
     return "no error";
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(AtomicFile, WritesAndReplaces) {

@@ -20,7 +20,7 @@ TEST(Config, PrintsEveryOptionWithUnitAndMeaning) {
 }
 
 TEST(Config, FileThenSettingsOverThePreset) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string file =
       folder.write("my.yaml", "tracker:\n  window_frames: 3\n  state.coast_time: 1.5\nthreads: sequential\n");
   const ProcessResult result =
@@ -33,7 +33,7 @@ TEST(Config, FileThenSettingsOverThePreset) {
 }
 
 TEST(Config, ReadsWhatItPrints) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const char* preset : {"sp-slam", "paper", "baseline"}) {
     const std::string printed = run_spslam({"config", "--print", "--preset", preset}).out;
     ASSERT_NE(printed, "");
@@ -57,7 +57,7 @@ void PrintTo(const BadConfig& row, std::ostream* out) {
 class WrongConfig : public testing::TestWithParam<BadConfig> {};
 
 TEST_P(WrongConfig, IsExplained) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   folder.write("key.yaml", "tracker:\n  window_frame: 3\n");
   folder.write("list.yaml", "tracker:\n  window_frames: [3, 4]\n");
   folder.write("broken.yaml", "tracker: {window_frames\n");

@@ -35,7 +35,7 @@ std::string kitti_line(int count, double step) {
 }
 
 TEST(Evaluate, PrintsTheTable) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   const ProcessResult result =
       run_spslam({"evaluate", files.write("e.txt", tum(0.9)), files.write("t.txt", tum(1))});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -44,7 +44,7 @@ TEST(Evaluate, PrintsTheTable) {
 }
 
 TEST(Evaluate, JsonParses) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   const ProcessResult result = run_spslam({"evaluate", files.write("e.txt", tum(0.9)),
                                            files.write("t.txt", tum(1)), "--json", "--align", "sim3"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -57,7 +57,7 @@ TEST(Evaluate, JsonParses) {
 
 // The estimate is in the world of a map that another run began somewhere else.
 TEST(Evaluate, OriginsAndShareWithin) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   std::string estimate, truth;
   for (int i = 0; i < 10; ++i) {
     const double error = i < 7 ? 0.1 : 0.5;
@@ -78,7 +78,7 @@ TEST(Evaluate, OriginsAndShareWithin) {
 
 // The map itself is 2 m beside the truth: localized in it, a run is where the map says, and no error is made.
 TEST(Evaluate, TheRunThatMadeTheMapLaysItOnTheWorld) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   const auto bend = [](double beside) {
     std::string text;
     for (int i = 0; i < 20; ++i)
@@ -102,7 +102,7 @@ TEST(Evaluate, TheRunThatMadeTheMapLaysItOnTheWorld) {
 }
 
 TEST(Evaluate, KittiFilesWithoutTimesGoByIndex) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   const ProcessResult result = run_spslam({"evaluate", files.write("e.txt", kitti_line(200, 1.01)),
                                            files.write("t.txt", kitti_line(200, 1)), "--json", "--kitti"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -113,7 +113,7 @@ TEST(Evaluate, KittiFilesWithoutTimesGoByIndex) {
 }
 
 TEST(Evaluate, KittiTimesAreLentToTheOther) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   std::string times;
   for (int i = 0; i < 200; ++i) times += std::to_string(0.1 * i) + "\n";
   files.write("sequence/times.txt", times);
@@ -127,7 +127,7 @@ TEST(Evaluate, KittiTimesAreLentToTheOther) {
 }
 
 TEST(Evaluate, PlanarTakesRtkGroundTruth) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   std::string gps;  // t, east, north, 7 more, heading: the half circle of tum() starting northwards
   for (int i = 0; i <= 50; ++i) {
     const double a = M_PI * i / 50;
@@ -153,7 +153,7 @@ struct BadInput {
 class BadInputs : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadInputs, AreExplainedOnStderrWithExitCodeOne) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   const std::string estimate =
       GetParam().estimate.empty() ? files.path("missing.txt") : files.write("e.txt", GetParam().estimate);
   const ProcessResult result = run_spslam({"evaluate", estimate, files.write("t.txt", tum(1))});
@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Cli, BadInputs,
                          [](const testing::TestParamInfo<BadInput>& test) { return test.param.name; });
 
 TEST(Evaluate, AFolderIsNoTrajectory) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   const std::string truth = files.write("folder/t.txt", tum(1));
   const ProcessResult result = run_spslam({"evaluate", files.path("folder"), truth});
   EXPECT_EQ(result.exit_code, 1);

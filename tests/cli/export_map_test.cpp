@@ -15,13 +15,13 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string saved_map(const ScratchFolder& folder) {
+std::string saved_map(const TemporaryFolder& folder) {
   save_map(folder.path("river.map"), test::made_up_map(), test::made_up_rig());
   return folder.path("river.map");
 }
 
 TEST(ExportMap, WritesPly) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const ProcessResult result = run_spslam({"export-map", saved_map(folder), "-o", folder.path("river.ply")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("of 12 landmarks"), HasSubstr("6 keyframes")));
@@ -30,7 +30,7 @@ TEST(ExportMap, WritesPly) {
 }
 
 TEST(ExportMap, WritesTwoTables) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string csv = folder.path("river.csv");
   EXPECT_EQ(run_spslam({"export-map", saved_map(folder), "-o", csv}).exit_code, 0);
   EXPECT_THAT(read_file(csv), testing::StartsWith("landmark,x,y,z,sigma"));
@@ -44,7 +44,7 @@ TEST(ExportMap, WritesTwoTables) {
 }
 
 TEST(ExportMap, SaysWhatIsWrong) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string map = saved_map(folder), text = folder.write("no.map", "no map at all, just text");
   const ProcessResult foreign = run_spslam({"export-map", text, "-o", folder.path("a.ply")});
   EXPECT_EQ(foreign.exit_code, 1);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/temporary_folder.h"
+
 namespace spslam {
 
 struct ProcessResult {
@@ -14,19 +16,7 @@ struct ProcessResult {
   std::string err;
 };
 
-// A folder for one test's files, removed with it.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  std::string write(const std::string& name, const std::string& text) const;  // returns the path
-
- private:
-  std::string folder_;
-};
+using test::TemporaryFolder;
 
 std::string read_file(const std::string& path);
 
@@ -40,7 +30,7 @@ class RunningSpslam {
   ProcessResult wait();
 
  private:
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
   int process_ = 0;
 };
 

@@ -24,7 +24,7 @@ std::string way() {
 }
 
 TEST(Report, MakesAPageOfARunsFolder) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   files.write("bank/trajectory_tum.txt", way());
   files.write("bank/frames.csv", "frame,timestamp,state,near,far\n0,0,tracking,10,20\n1,0.1,lost,0,0\n");
   files.write("bank/timing.json", R"({"stages": {"total": {"mean": 1, "p50": 2, "p95": 3, "max": 4.25}}})");
@@ -38,7 +38,7 @@ TEST(Report, MakesAPageOfARunsFolder) {
 }
 
 TEST(Report, WithoutTruthThereAreNoErrors) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   files.write("bank/trajectory_tum.txt", way());
   const ProcessResult result =
       run_spslam({"report", files.path("bank"), "--output", files.path("page.html")});
@@ -47,7 +47,7 @@ TEST(Report, WithoutTruthThereAreNoErrors) {
 }
 
 TEST(Report, SaysWhatIsMissing) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   const ProcessResult none = run_spslam({"report", files.path("none")});
   EXPECT_EQ(none.exit_code, 1);
   EXPECT_THAT(none.err, HasSubstr("is not a folder"));
@@ -58,7 +58,7 @@ TEST(Report, SaysWhatIsMissing) {
 }
 
 TEST(Report, SaysThatThePageCannotBeWritten) {
-  const ScratchFolder files;
+  const TemporaryFolder files;
   files.write("bank/trajectory_tum.txt", way());
   const ProcessResult result =
       run_spslam({"report", files.path("bank"), "--output", files.path("no/such/folder/page.html")});

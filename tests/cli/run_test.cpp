@@ -31,7 +31,7 @@ constexpr const char* kFiles[] = {
 class Run : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scene_folder = std::make_unique<ScratchFolder>();
+    scene_folder = std::make_unique<TemporaryFolder>();
     test::write_scene(scene_folder->path("scene"));
   }
   static void TearDownTestSuite() { scene_folder.reset(); }
@@ -55,8 +55,8 @@ class Run : public testing::Test {
     return run_spslam(arguments);
   }
 
-  ScratchFolder scratch;
-  static inline std::unique_ptr<ScratchFolder> scene_folder;
+  TemporaryFolder scratch;
+  static inline std::unique_ptr<TemporaryFolder> scene_folder;
 };
 
 TEST_F(Run, WritesEveryFile) {

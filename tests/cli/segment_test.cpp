@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 // A bright sky over dark land.
-std::string write_scene(const ScratchFolder& folder, const std::string& name) {
+std::string write_scene(const TemporaryFolder& folder, const std::string& name) {
   cv::Mat image(180, 320, CV_8UC1, cv::Scalar(40));
   image.rowRange(0, 60).setTo(210);
   const std::string path = folder.path(name);
@@ -24,7 +24,7 @@ std::string write_scene(const ScratchFolder& folder, const std::string& name) {
 }
 
 TEST(Segment, WritesMaskOverlayAndElements) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string image = write_scene(folder, "a.png"), output = folder.path("out");
   const ProcessResult result = run_spslam({"segment", image, "--output", output, "--elements"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -40,7 +40,7 @@ TEST(Segment, WritesMaskOverlayAndElements) {
 }
 
 TEST(Segment, OverwritesNoneOfTwoImagesOfOneName) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string first = write_scene(folder, "l/a.png"), second = write_scene(folder, "r/a.png");
   EXPECT_EQ(run_spslam({"segment", first, second, "--output", folder.path("out")}).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder.path("out/a_mask.png")));
@@ -48,7 +48,7 @@ TEST(Segment, OverwritesNoneOfTwoImagesOfOneName) {
 }
 
 TEST(Segment, GoesOnAfterABadImage) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string bad = folder.write("bad.png", "no image"), good = write_scene(folder, "good.png");
   const ProcessResult result = run_spslam({"segment", bad, good, "--output", folder.path("out")});
   EXPECT_EQ(result.exit_code, 1);
@@ -57,7 +57,7 @@ TEST(Segment, GoesOnAfterABadImage) {
 }
 
 TEST(Segment, NamesTheNearestOption) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string image = write_scene(folder, "a.png");
   const ProcessResult unknown =
       run_spslam({"segment", image, "--output", folder.path("out"), "--set", "windw=3"});
@@ -69,7 +69,7 @@ TEST(Segment, NamesTheNearestOption) {
 }
 
 TEST(Segment, SaysIfTheOutputCannotBeWritten) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string image = write_scene(folder, "a.png"), file = folder.write("file", "");
   const ProcessResult result = run_spslam({"segment", image, "--output", file + "/out"});
   EXPECT_EQ(result.exit_code, 1);

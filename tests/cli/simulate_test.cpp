@@ -27,7 +27,7 @@ render: {detail: 0.1, samples: 1, edge_samples: 0}
 )";
 
 // `spslam simulate` of the small scene into the folder "data".
-std::vector<std::string> command(const ScratchFolder& folder, const std::vector<std::string>& more = {},
+std::vector<std::string> command(const TemporaryFolder& folder, const std::vector<std::string>& more = {},
                                  const char* frames = "3") {
   std::vector<std::string> words = {
       "simulate", folder.write("small.yaml", kScene), "--output", folder.path("data"), "--frames", frames};
@@ -41,7 +41,7 @@ std::size_t files_in(const fs::path& folder) {
 }
 
 TEST(Simulate, WritesADataSetThatRunReads) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const ProcessResult simulated = run_spslam(command(folder, {"--seed", "4"}));
   EXPECT_EQ(simulated.exit_code, 0) << simulated.err;
   EXPECT_THAT(simulated.out, HasSubstr("3 pairs"));
@@ -55,7 +55,7 @@ TEST(Simulate, WritesADataSetThatRunReads) {
 }
 
 TEST(Simulate, TheSameSeedGivesTheSameBytes) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(run_spslam(command(folder, {"--seed", "7"}, "1")).exit_code, 0);
   const auto image = [&] {
     return read_file(fs::directory_iterator(folder.path("data/image_1"))->path().string());
@@ -68,7 +68,7 @@ TEST(Simulate, TheSameSeedGivesTheSameBytes) {
 }
 
 TEST(Simulate, NamesTheNearestSceneAndKey) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const ProcessResult scene = run_spslam({"simulate", "lake_lop", "--output", folder.path("data")});
   EXPECT_EQ(scene.exit_code, 2);
   EXPECT_THAT(scene.err, HasSubstr("did you mean 'lake_loop'"));
@@ -83,7 +83,7 @@ TEST(Simulate, NamesTheNearestSceneAndKey) {
 }
 
 TEST(Simulate, RefusesARigThatCannotBe) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const ProcessResult result = run_spslam(command(folder, {"--set", "rig.baseline=0"}));
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("rig.baseline"));
@@ -97,7 +97,7 @@ TEST(Simulate, PrintsTheOptionsOfAScene) {
 }
 
 TEST(Simulate, WritesIntoAnEmptyFolderOnly) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string other = folder.write("data/letter.txt", "mine");
   const ProcessResult refused = run_spslam(command(folder));
   EXPECT_EQ(refused.exit_code, 1);
@@ -109,7 +109,7 @@ TEST(Simulate, WritesIntoAnEmptyFolderOnly) {
 }
 
 TEST(Simulate, AnInterruptedRunLeavesAFolderThatIsRefused) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   RunningSpslam running(command(folder, {}, "3000"));
   for (int i = 0; i < 60000 && files_in(folder.path("data/image_1")) < 2; ++i) usleep(1000);
   running.send(SIGINT);

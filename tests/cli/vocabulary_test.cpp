@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 // Twelve pairs, the second six of the same places as the first: boxes that differ from place to place.
-std::string write_sequence(const ScratchFolder& folder) {
+std::string write_sequence(const TemporaryFolder& folder) {
   for (const char* eye : {"image_0", "image_1"})
     std::filesystem::create_directories(folder.path("run/") + eye);
   std::string times, poses;
@@ -37,7 +37,7 @@ std::string write_sequence(const ScratchFolder& folder) {
 }
 
 TEST(VocabularyCommand, TrainsConvertsDescribesAndMeasures) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string run = write_sequence(folder), binary = folder.path("a.spv"), text = folder.path("a.txt"),
                     again = folder.path("b.spv");
   ProcessResult result =
@@ -58,7 +58,7 @@ TEST(VocabularyCommand, TrainsConvertsDescribesAndMeasures) {
 }
 
 TEST(VocabularyCommand, SaysWhatIsWrong) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string foreign = folder.write("foreign.spv", "not a vocabulary");
   const auto said = [](const std::vector<std::string>& arguments) {
     const ProcessResult result = run_spslam(arguments);

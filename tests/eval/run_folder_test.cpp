@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
 
+#include "base/temporary_folder.h"
 #include "eval/synthetic.h"
 
 namespace spslam {
@@ -60,13 +60,10 @@ TEST(RunFolder, TimingOfEitherShape) {
 
 class RunFolderOnDisk : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_ / "samples"); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "spslam_run_folder_test" / "bank";
+  void write(const std::string& name, const std::string& text) const { parent_.write("bank/" + name, text); }
+
+  const test::TemporaryFolder parent_;
+  const std::filesystem::path folder_ = parent_.path() / "bank";
 };
 
 TEST_F(RunFolderOnDisk, ReadsWhatIsThere) {
@@ -86,6 +83,7 @@ TEST_F(RunFolderOnDisk, ReadsWhatIsThere) {
 }
 
 TEST_F(RunFolderOnDisk, NeedsATrajectory) {
+  write("config.yaml", "preset: paper\n");
   EXPECT_THAT(message_of<InputError>([&] { read_run_folder(folder_); }), HasSubstr("trajectory_tum.txt"));
   EXPECT_THAT(message_of<InputError>([&] { read_run_folder(folder_ / "none"); }), HasSubstr("not a folder"));
 }

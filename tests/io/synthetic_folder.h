@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Small sequences on disk for tests: a temporary folder that removes itself, and one writer a format.
+// Small sequences on disk for tests, one writer a format.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "base/temporary_folder.h"
 #include "spslam/base/error.h"
 #include "spslam/base/random.h"
 #include "spslam/io/calibration.h"
@@ -18,27 +18,6 @@
 namespace spslam::test {
 
 namespace fs = std::filesystem;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name =
-        std::string(info->test_suite_name()) + "_" + info->name() + "_" + std::to_string(getpid());
-    std::replace(name.begin(), name.end(), '/', '_');
-    path_ = fs::path(testing::TempDir()) / ("spslam_" + name);
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 inline constexpr int kWidth = 64, kHeight = 48, kFrames = 6;
 

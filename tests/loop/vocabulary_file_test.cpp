@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/temporary_folder.h"
 #include "loop/synthetic_places.h"
 #include "spslam/base/atomic_file.h"
 #include "spslam/base/error.h"
@@ -25,12 +26,6 @@ Vocabulary trained() {
   options.branching = 5;
   options.levels = 3;
   return Vocabulary::train(places.images_of_all(), options);
-}
-
-fs::path file_of_this_test(const char* extension) {
-  return fs::path(testing::TempDir()) /
-         (std::string("vocabulary_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
-          extension);
 }
 
 template <class T>
@@ -54,7 +49,8 @@ std::size_t children_at(const Bytes& bytes) {
 
 TEST(VocabularyFile, RoundTripIsBitExact) {
   const Vocabulary vocabulary = trained();
-  const fs::path path = file_of_this_test(".spv");
+  const test::TemporaryFolder folder;
+  const fs::path path = folder.path() / "trained.spv";
   vocabulary.save(path);
   const Vocabulary opened = Vocabulary::open(path);
   EXPECT_EQ(Bytes(opened.bytes().begin(), opened.bytes().end()),
@@ -65,11 +61,11 @@ TEST(VocabularyFile, RoundTripIsBitExact) {
   const std::vector<Descriptor> image = places.image(1);
   EXPECT_EQ(opened.describe(image), vocabulary.describe(image));
   EXPECT_EQ(opened.group(image, 1), vocabulary.group(image, 1));
-  fs::remove(path);
 }
 
 TEST(VocabularyFile, MappedMemoryOutlivesTheFilesNameAndOtherCopies) {
-  const fs::path path = file_of_this_test(".spv");
+  const test::TemporaryFolder folder;
+  const fs::path path = folder.path() / "trained.spv";
   const Vocabulary vocabulary = trained();
   vocabulary.save(path);
   Vocabulary copy;
@@ -135,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Each, DamagedVocabulary, testing::ValuesIn(kCorruptions
 
 TEST(VocabularyFile, SaysWhyItCannotBeOpened) {
   EXPECT_THROW(Vocabulary::open("no/such/file.spv"), InputError);
-  EXPECT_THROW(Vocabulary::open(testing::TempDir()), InputError);
+  EXPECT_THROW(Vocabulary::open(test::TemporaryFolder().path()), InputError);
   EXPECT_THROW(trained().save("no/such/folder/file.spv"), OutputError);
 }
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/temporary_folder.h"
 #include "loop/synthetic_places.h"
 #include "spslam/base/error.h"
 
@@ -166,7 +167,7 @@ TEST(EmptyVocabulary, AnswersAllTheSame) {
   EXPECT_EQ(none.word(two[0]), 0u);
   EXPECT_TRUE(none.describe(two).empty());
   ASSERT_EQ(none.group(two, 1).nodes.size(), 1u);
-  EXPECT_THROW(none.save(testing::TempDir() + "none.spv"), OutputError);
+  EXPECT_THROW(none.save(test::TemporaryFolder().path() / "none.spv"), OutputError);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/temporary_folder.h"
 #include "loop/synthetic_places.h"
 #include "spslam/base/error.h"
 #include "spslam/loop/vocabulary.h"
@@ -59,10 +60,10 @@ TEST(Dbow2Text, RoundTripIsBitExactButForTheImages) {
   options.branching = 5;
   options.levels = 3;
   const Vocabulary vocabulary = Vocabulary::train(places.images_of_all(), options);
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "vocabulary_round_trip.txt";
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "round_trip.txt";
   vocabulary.write_dbow2_text(path);
   const Vocabulary read = Vocabulary::read_dbow2_text(path);
-  std::filesystem::remove(path);
   EXPECT_TRUE(std::ranges::equal(read.descriptors(), vocabulary.descriptors()));
   EXPECT_TRUE(std::ranges::equal(read.weights(), vocabulary.weights()));
   EXPECT_TRUE(std::ranges::equal(read.first_child(), vocabulary.first_child()));

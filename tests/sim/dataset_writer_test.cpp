@@ -8,6 +8,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/temporary_folder.h"
 #include "sim/small_scene.h"
 #include "spslam/base/error.h"
 #include "spslam/io/dataset.h"
@@ -21,17 +22,12 @@ using testing::HasSubstr;
 
 class DatasetWriterTest : public testing::Test {
  protected:
-  DatasetWriterTest()
-      : folder_(
-            fs::path(testing::TempDir()) /
-            (std::string("spslam_writer_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
+  DatasetWriterTest() {
     request_.scene = small_scene();
     request_.scene.truth.depth_every = request_.scene.truth.mask_every = 2;
     request_.output = folder_ / "data";
     request_.frames = 4;
   }
-  ~DatasetWriterTest() override { fs::remove_all(folder_); }
 
   template <class Exception>
   std::string message_of(const Progress& progress = {}) {
@@ -43,7 +39,8 @@ class DatasetWriterTest : public testing::Test {
     return "no error";
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   SimulationRequest request_;
 };
 
@@ -147,7 +144,6 @@ TEST_F(DatasetWriterTest, AnInterruptedRunIsRecognised) {
 }
 
 TEST_F(DatasetWriterTest, WhatCannotBeWrittenIsSaid) {
-  fs::create_directories(folder_);
   std::ofstream(folder_ / "file") << "x";
   request_.output = folder_ / "file";
   EXPECT_THAT(message_of<OutputError>(), HasSubstr("is a file"));

@@ -56,11 +56,10 @@ TEST(Localizer, TheMapStaysAsItIs) {
   for (int i = 5; i < kSceneFrames; ++i)
     slam.track(at_time(scene_pairs()[static_cast<std::size_t>(i)], 100 + 0.1 * i));
   slam.finish();
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / ("spslam_localizer." + std::to_string(getpid()) + ".map");
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "after.map";
   slam.save(path);
   const Map after = load_map(path).map;
-  std::filesystem::remove(path);
   EXPECT_EQ(encode_map(after, scene_rig()), encode_map(known_map(), scene_rig()));
 }
 

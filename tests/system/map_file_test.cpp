@@ -14,6 +14,7 @@
 #include <limits>
 #include <variant>
 
+#include "base/temporary_folder.h"
 #include "spslam/base/atomic_file.h"
 #include "spslam/system/byte_stream.h"
 #include "system/made_up_map.h"
@@ -31,19 +32,13 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class MapFile : public testing::Test {
  protected:
-  MapFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "spslam_map_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder: " + name);
-    folder_ = name;
-  }
-  ~MapFile() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path path(const char* name = "river.map") const { return folder_ / name; }
+  std::filesystem::path path(const char* name = "river.map") const { return folder_.path() / name; }
   std::size_t files_in_folder() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
   }
 
  private:
-  std::filesystem::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 Bytes read_all(const std::filesystem::path& path) {

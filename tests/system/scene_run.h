@@ -4,11 +4,11 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "base/temporary_folder.h"
 #include "spslam/eval/evaluation.h"
 #include "spslam/system/map_file.h"
 #include "spslam/system/slam.h"
@@ -55,9 +55,8 @@ inline StereoFrame mirrored(const StereoFrame& pair, double timestamp) {
 
 // The map of a run over all pairs, after a way through a file.
 inline Map saved_and_loaded() {
-  // Cases run side by side, in processes of their own.
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / ("spslam_scene_run." + std::to_string(getpid()) + ".map");
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "scene.map";
   {
     Slam slam(scene_rig(), sequential_options());
     for (const StereoFrame& pair : scene_pairs()) slam.track(pair);
@@ -65,7 +64,6 @@ inline Map saved_and_loaded() {
     slam.save(path);
   }
   SavedMap saved = load_map(path);
-  std::filesystem::remove(path);
   check_same_rig(saved.rig, scene_rig());
   return std::move(saved.map);
 }
