@@ -4,7 +4,8 @@
 # Makes the tables of docs/RESULTS.md: runs the presets, or one changed switch after the other, on the sequences and prints Markdown.
 #   scripts/results.sh              presets sp-slam, paper, baseline
 #   scripts/results.sh --ablation   sp-slam with one thing changed a row
-#   scripts/results.sh --threads    sp-slam with its threads side by side, RUNS (10) times, against the sequential run
+#   scripts/results.sh --threads    sp-slam with its threads side by side, RUNS (10) times, against the sequential run: as a recording is
+#                                   run, and with tracking let run ahead of the map
 # From the environment:
 #   DATA       folder of the sequences (../shared/data); those that are not there are left out
 #   SEQUENCES  their names; all known ones unless given
@@ -78,29 +79,34 @@ presets() {
   done
 }
 
-# ATE of RUNS threaded runs (each differs) as "median least most" beside that of the sequential one.
+# "median | least | most" of the ATE of RUNS runs into $output/NAME.1, each over the one before.
+ates_of() {  # SEQUENCE NAME [argument of `spslam run` ...]
+  local sequence=$1 name=$2 run ate
+  shift 2
+  for ((run = 1; run <= runs; ++run)); do
+    "$program" run "$data/$sequence" --output "$output/$name.1" --overwrite --quiet "$@"
+    read -r ate _ < <(accuracy "$sequence" "$name")
+    echo "$ate"
+  done | sort -g | awk '
+      { v[NR] = $1 }
+      END { m = NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2
+            printf "%.4f | %.4f | %.4f", m, v[1], v[NR] }'
+}
+
 threads() {
-  local sequence run ate name
+  local sequence ate mapping waiting ahead
   [ "$runs" -gt 1 ] || runs=10
-  echo "| sequence | sequential ATE RMSE m | threads: median | least | most | mapping ms a keyframe, median / p95 |"
-  echo "|---|---|---|---|---|---|"
+  echo "| sequence | sequential ATE RMSE m | threads: median | least | most | \`--ahead\`: median | least | most | mapping ms a keyframe beside tracking, median / p95 |"
+  echo "|---|---|---|---|---|---|---|---|---|"
   for sequence in "${sequences[@]}"; do
     [ -f "$data/$sequence/poses.txt" ] || continue
     "$program" run "$data/$sequence" --output "$output/$sequence.once.1" --overwrite --sequential --quiet
-    local ates=() mapping
-    for ((run = 1; run <= runs; ++run)); do
-      name=$sequence.threads
-      "$program" run "$data/$sequence" --output "$output/$name.1" --overwrite --quiet
-      read -r ate _ < <(accuracy "$sequence" "$name")
-      ates+=("$ate")
-    done
-    mapping=$(awk -F, 'NR > 1 { print $2 }' "$output/$sequence.threads.1/mapping.csv" | sort -g |
+    waiting=$(ates_of "$sequence" "$sequence.threads")
+    ahead=$(ates_of "$sequence" "$sequence.ahead" --ahead)
+    mapping=$(awk -F, 'NR > 1 { print $2 }' "$output/$sequence.ahead.1/mapping.csv" | sort -g |
       awk '{ v[NR] = $1 } END { printf "%.1f / %.1f", v[int((NR + 1) / 2)], v[int(NR * 0.95 + 0.5)] }')
     read -r ate _ < <(accuracy "$sequence" "$sequence.once")
-    printf '%s\n' "${ates[@]}" | sort -g | awk -v sequence="$sequence" -v once="$ate" -v mapping="$mapping" '
-      { v[NR] = $1 }
-      END { m = NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2
-            printf "| %s | %s | %.4f | %.4f | %.4f | %s |\n", sequence, once, m, v[1], v[NR], mapping }'
+    echo "| $sequence | $ate | $waiting | $ahead | $mapping |"
   done
 }
 

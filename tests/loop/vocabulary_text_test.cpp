@@ -40,6 +40,17 @@ TEST(Dbow2Text, ReadsATreeInAnyOrderOfLines) {
   EXPECT_EQ(weight(0), 2.25F);
 }
 
+// Found by the fuzzer: beside the other weight the share is less than a float can hold, and was 0.
+TEST(Dbow2Text, AWordOfNextToNoWeightIsLeftOutOfTheDescription) {
+  const std::string text = "2 1 0 0\n" + node(0, 1, 0, "100") + node(0, 1, 255, "1e-45");
+  const Vocabulary vocabulary = Vocabulary::parse_dbow2_text(text, "voc.txt");
+  const Descriptor heavy = {0}, light = {255};
+  const std::vector<Descriptor> both = {heavy, light}, only = {light};
+  const std::vector<std::pair<WordId, float>> one = {{vocabulary.word(heavy), 1.0F}};
+  EXPECT_EQ(vocabulary.describe(both).words, one);
+  EXPECT_EQ(vocabulary.describe(only).words.size(), 1u);
+}
+
 TEST(Dbow2Text, BytesStandInTheOrderOfTheBits) {
   std::string line = "0 1";
   for (int i = 0; i < 32; ++i) line.append(" ").append(std::to_string(i));

@@ -71,6 +71,21 @@ TEST(System, SameBitsOnEveryRun) {
   expect_same_bits(first.trajectory, run_pairs(scene_pairs(), options).trajectory);
 }
 
+// Then a machine's load does not count, as with one thread.
+TEST(System, ParallelStagesThatWaitForTheMapGiveTheBitsOfSequentialOnes) {
+  SlamOptions options;
+  options.loop.enabled = false;  // the loop closer is not waited for
+  options.threads = Threads::kParallel;
+  Slam slam(scene_rig(), options);
+  for (const StereoFrame& pair : scene_pairs()) {
+    slam.wait_for_map();
+    slam.track(pair);
+  }
+  slam.finish();
+  options.threads = Threads::kSequential;
+  expect_same_bits(poses_of(slam), run_pairs(scene_pairs(), options).trajectory);
+}
+
 TEST(System, TwoInOneProcessShareNothing) {
   const SceneRun alone = run_pairs(scene_pairs(), sequential_options());
   const SceneRun other_alone = run_pairs(scene_pairs(), sequential_options(Preset::kBaseline));

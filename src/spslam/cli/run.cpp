@@ -35,7 +35,7 @@ struct RunArguments {
   int samples = 6;
   std::string save_map, load_map;
   bool localize = false;
-  bool sequential = false, realtime = false, overwrite = false, quiet = false;
+  bool sequential = false, realtime = false, ahead = false, overwrite = false, quiet = false;
 };
 
 double seconds_since(Clock::time_point start) {
@@ -102,6 +102,8 @@ std::exception_ptr track_frames(const RunArguments& arguments, const Dataset& da
       const double time = frame->pair.timestamp - dataset.timestamp(arguments.start);
       if (arguments.realtime)
         wait_until(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time)));
+      else if (!arguments.ahead)
+        slam.wait_for_map();
       if (interruption() != 0) break;
       record.frames.push_back({frame->index, frame->seconds, slam.track(frame->pair)});
       log_frame(record.frames.back(), before);
@@ -262,9 +264,16 @@ void add_run(CLI::App& app, Command& chosen) {
                    "Pictures of the run's features, near and far, for its report")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_flag("--sequential", arguments->sequential,
-                    "All stages in order in one thread: the same bits on every run (threads=sequential)");
-  command->add_flag("--realtime", arguments->realtime, "Give each frame no earlier than at its time");
+  CLI::Option* sequential =
+      command->add_flag("--sequential", arguments->sequential,
+                        "All stages in order in one thread: the same bits on every run (threads=sequential)");
+  CLI::Option* realtime =
+      command->add_flag("--realtime", arguments->realtime, "Give each frame no earlier than at its time");
+  command
+      ->add_flag("--ahead", arguments->ahead,
+                 "Do not wait for the map before the next frame: less accurate, to see how much")
+      ->excludes(sequential)
+      ->excludes(realtime);
   command->add_flag("--overwrite", arguments->overwrite, "Replace the results that are in the folder");
   command->add_flag("--quiet,-q", arguments->quiet, "No progress, no report");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run_dataset(*arguments); }; });

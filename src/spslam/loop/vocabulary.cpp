@@ -65,6 +65,8 @@ WordVector Vocabulary::describe(std::span<const Descriptor> descriptors) const {
     sum += share;
   });
   for (auto& [word, share] : out.words) share = static_cast<float>(share / sum);
+  // A weight of next to nothing beside one that counts may have no share that a float can hold.
+  std::erase_if(out.words, [](const auto& word) { return !(word.second > 0); });
   return out;
 }
 

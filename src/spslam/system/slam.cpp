@@ -55,6 +55,10 @@ TrackResult Slam::track(const StereoFrame& pair) {
   return localizer_ ? localizer_->place(output) : output.result;
 }
 
+void Slam::wait_for_map() {
+  stages_->wait_for_map();
+}
+
 void Slam::finish() {
   stages_->finish();
   if (localizer_) localizer_->finish();

@@ -68,6 +68,11 @@ class Slam {
     return track({timestamp, left, right, ""});
   }
 
+  // Waits until every keyframe so far is in the map. For recordings, whose frames come as fast as they are
+  // asked for: what tracking knows of the map then does not depend on how busy the machine is. Not for a
+  // camera, whose frames nobody keeps. From the same thread as track().
+  void wait_for_map();
+
   // Ends the input: everything waiting is worked off. Called by the destructor too; track() must not be
   // called after it.
   void finish();

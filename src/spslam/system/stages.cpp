@@ -56,11 +56,20 @@ TrackerOutput Stages::track(const StereoFrame& pair) {
 void Stages::take(TrackerOutput& output) {
   settled_.insert(settled_.end(), output.settled.begin(), output.settled.end());
   for (KeyframeProposal& proposal : output.proposals) {
+    {
+      const std::scoped_lock lock(view_mutex_);
+      ++unmapped_;
+    }
     if (is_parallel())
       proposals_.push(std::move(proposal));
     else
       insert(std::move(proposal));
   }
+}
+
+void Stages::wait_for_map() {
+  std::unique_lock lock(view_mutex_);
+  mapped_.wait(lock, [&] { return unmapped_ == 0; });
 }
 
 void Stages::insert(KeyframeProposal proposal) {
@@ -76,13 +85,19 @@ void Stages::insert(KeyframeProposal proposal) {
                             done.adjustment.initial_cost, done.adjustment.final_cost,
                             mapper_.map().keyframes().size(), mapper_.map().landmarks().size(),
                             done.triangulated, done.fused});
-    publish(std::move(done.view));
+    publish_mapped(std::move(done.view));
   }
   if (!options_.loop.enabled) return;
   if (is_parallel())
     described_.push(id);
   else
     close_loop(id);
+}
+
+void Stages::publish_mapped(LocalMapView view) {
+  publish(std::move(view));
+  const std::scoped_lock lock(view_mutex_);
+  if (--unmapped_ == 0) mapped_.notify_all();
 }
 
 void Stages::publish(LocalMapView view) {

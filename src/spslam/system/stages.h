@@ -24,6 +24,8 @@ class Stages {
 
   // Frames in order of time. The output has no keyframes any more: they are on their way.
   TrackerOutput track(const StereoFrame& pair);
+  // See Slam::wait_for_map().
+  void wait_for_map();
   // Ends the input and works off what waits. Nothing may be tracked afterwards.
   void finish();
 
@@ -43,6 +45,7 @@ class Stages {
   void close_loop(KeyframeId id);
   void write(MapCorrection correction);
   void publish(LocalMapView view);
+  void publish_mapped(LocalMapView view);  // of a keyframe that was on its way
   std::optional<FoundPose> relocalize(const KeyframeFeatures& features);
   void stop();
 
@@ -62,8 +65,10 @@ class Stages {
   LoopCloser closer_;
   std::vector<MappingInfo> mapping_log_;
   std::vector<LoopAttempt> loop_log_;
-  std::mutex view_mutex_;  // guards the view, so that the tracker never waits for the mapper
+  std::mutex view_mutex_;  // guards what follows, so that track() never waits for the mapper
   LocalMapView view_;
+  int unmapped_ = 0;                // keyframes on their way into the map
+  std::condition_variable mapped_;  // none is
   std::thread mapping_, loop_closing_;  // last: they use all of the above
 };
 
