@@ -41,4 +41,13 @@ AlignmentPyramid::AlignmentPyramid(const cv::Mat& grey, int levels) {
   }
 }
 
+AlignmentPyramid AlignmentPyramid::softened(double sigma) const {
+  AlignmentPyramid out = *this;
+  cv::Mat view = bordered_view(levels_.front().size());
+  cv::GaussianBlur(levels_.front(), view, {}, sigma, sigma, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  fill_border(view);
+  out.levels_.front() = view;
+  return out;
+}
+
 }  // namespace spslam

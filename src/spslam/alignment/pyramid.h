@@ -18,6 +18,9 @@ class AlignmentPyramid {
   // grey: CV_8UC1, not empty. levels >= 1; fewer are made when the image gets smaller than a patch.
   AlignmentPyramid(const cv::Mat& grey, int levels);
 
+  // Level 0 blurred by a Gaussian (standard deviation in px), the coarser ones as they are and shared.
+  AlignmentPyramid softened(double sigma) const;
+
   int size() const { return static_cast<int>(levels_.size()); }
   bool empty() const { return levels_.empty(); }
   // The level without its border; a pixel x of the full-size image lies at x / 2^level.

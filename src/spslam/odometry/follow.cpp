@@ -136,14 +136,17 @@ std::optional<Prediction> predict(const ActiveMap& map, const Landmark& landmark
 
 std::optional<double> align_disparity(const Frame& frame, const Eigen::Vector2f& left, double start,
                                       int first_level, const TrackerOptions& options) {
+  const bool soft = !frame.soft_left.empty() && start < options.follow.soft_disparity;
+  const AlignmentPyramid& left_image = soft ? frame.soft_left : frame.left;
+  const AlignmentPyramid& right_image = soft ? frame.soft_right : frame.right;
   const Eigen::Matrix2f upright = Eigen::Matrix2f::Identity();
   const Eigen::Vector2f guess(left.x() - static_cast<float>(start), left.y());
   const Alignment right =
-      align_patch(frame.left, left, frame.right, guess, upright, options.alignment, first_level);
+      align_patch(left_image, left, right_image, guess, upright, options.alignment, first_level);
   if (!right.ok() || std::abs(right.position.y() - left.y()) > options.follow.max_row_offset)
     return std::nullopt;
   const Alignment back =
-      align_patch(frame.right, right.position, frame.left, left, upright, options.alignment, 0);
+      align_patch(right_image, right.position, left_image, left, upright, options.alignment, 0);
   if (!back.ok() || (back.position - left).norm() > options.follow.max_return) return std::nullopt;
   return left.x() - right.position.x();
 }

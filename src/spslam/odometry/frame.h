@@ -18,7 +18,8 @@ struct Frame {
   FrameId id;
   double timestamp = 0;  // s
   AlignmentPyramid left, right;
-  RegionMap regions;  // empty if the frame was not segmented
+  AlignmentPyramid soft_left, soft_right;  // of blurred images, for small disparities; empty if not wanted
+  RegionMap regions;                       // empty if the frame was not segmented
   // Only where descriptors give the identity; stereo is as long as the keypoints.
   Features features;
   std::vector<StereoMeasurement> stereo;

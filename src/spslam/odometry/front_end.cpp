@@ -61,10 +61,13 @@ Frame FrontEnd::process(const StereoFrame& pair, FrameId id) {
   tbb::parallel_invoke(
       [&] {
         frame.left = AlignmentPyramid(pair.left, options_.alignment.levels);
+        if (options_.follow.soft_sigma > 0) frame.soft_left = frame.left.softened(options_.follow.soft_sigma);
         if (needs_features()) frame.features = left_.extract(pair.left);
       },
       [&] {
         frame.right = AlignmentPyramid(pair.right, options_.alignment.levels);
+        if (options_.follow.soft_sigma > 0)
+          frame.soft_right = frame.right.softened(options_.follow.soft_sigma);
         if (needs_features()) right_features = right_.extract(pair.right);
         if (options_.segment) frame.regions = segmenter_.update(pair.left).regions;
       });

@@ -37,6 +37,8 @@ struct FollowOptions {
   double position_sigma = 0.35;
   double keypoint_sigma = 0.7;
   double disparity_sigma = 0.12;
+  double soft_sigma = 0.7;
+  double soft_disparity = 1.5;
   double max_row_offset = 1.5;
   double max_return = 0.3;
   int max_missed = 2;
@@ -64,6 +66,10 @@ struct FollowOptions {
     visit(self.keypoint_sigma,
           {"keypoint_sigma", "px", "deviation of a keypoint's own position, at full size", 0.01, 10});
     visit(self.disparity_sigma, {"disparity_sigma", "px", "deviation of an aligned disparity", 0.01, 10});
+    visit(self.soft_sigma,
+          {"soft_sigma", "px", "blur under which small disparities are measured, against aliasing; 0: none",
+           0, 3});
+    visit(self.soft_disparity, {"soft_disparity", "px", "disparity up to which one is small", 0, 1000});
     visit(self.max_row_offset, {"max_row_offset", "px", "largest row difference of the two eyes", 0.1, 20});
     visit(self.max_return,
           {"max_return", "px", "farthest from the left point that the way back from the right eye may end",
