@@ -7,6 +7,7 @@
 #include <tbb/global_control.h>
 
 #include <numeric>
+#include <opencv2/imgproc.hpp>
 
 #include "odometry/plane_scene.h"
 
@@ -213,6 +214,74 @@ TEST(FollowDescriptors, AmbiguousMatchesAreDropped) {
   // Equal descriptors: a distance of one bit, so that the ratio is not 0 / 0.
   for (ActiveLandmark& active : map.landmarks) active.landmark.descriptor[0] ^= 1U;
   EXPECT_TRUE(follow_descriptors(map, all_of(map), frame, kMoved, {}).empty());
+}
+
+// A texture seen through pixels that are too few for it: much of it is folded back below the sampling rate
+// and moves the wrong way. `shift` in quarters of a pixel to the left.
+cv::Mat aliased_image(int shift) {
+  constexpr int kFine = 4, kWidth = 320, kHeight = 240;
+  Random random(5);
+  cv::Mat fine(kFine * kHeight, kFine * (kWidth + 2), CV_32F);
+  for (int y = 0; y < fine.rows; ++y)
+    for (int x = 0; x < fine.cols; ++x) fine.at<float>(y, x) = static_cast<float>(random.normal());
+  cv::GaussianBlur(fine, fine, {}, 1.6);
+  cv::Mat image(kHeight, kWidth, CV_8U);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      image.at<unsigned char>(y, x) =
+          cv::saturate_cast<unsigned char>(128 + 150 * fine.at<float>(kFine * y, kFine * x + shift));
+  return image;
+}
+
+// The mean disparity of the points of a grid, by the fraction of a pixel at which they lie in the left image.
+std::vector<double> mean_disparities(const Frame& frame, const TrackerOptions& options) {
+  std::vector<double> means;
+  for (const float fraction : {0.0F, 0.25F, 0.5F, 0.75F}) {
+    double sum = 0;
+    int count = 0;
+    for (int y = 20; y < 220; y += 5)
+      for (int x = 20; x < 300; x += 5) {
+        const Eigen::Vector2f at(static_cast<float>(x) + fraction, static_cast<float>(y));
+        if (const auto d = align_disparity(frame, at, 0, 0, options)) sum += *d, ++count;
+      }
+    EXPECT_GT(count, 200);
+    means.push_back(sum / count);
+  }
+  return means;
+}
+
+TEST(AlignDisparity, ABlurTakesPartOfTheBiasByAliasingAway) {
+  constexpr double kTrue = 0.25;  // px
+  const TrackerOptions options;
+  Frame frame;
+  frame.left = AlignmentPyramid(aliased_image(0), 4);
+  frame.right = AlignmentPyramid(aliased_image(1), 4);
+  const std::vector<double> sharp = mean_disparities(frame, options);
+  frame.soft_left = frame.left.softened(options.follow.soft_sigma);
+  frame.soft_right = frame.right.softened(options.follow.soft_sigma);
+  const std::vector<double> soft = mean_disparities(frame, options);
+  const auto bias = [&](const std::vector<double>& all) {
+    return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size()) - kTrue;
+  };
+  const auto spread = [](const std::vector<double>& all) {
+    const auto [low, high] = std::ranges::minmax(all);
+    return high - low;
+  };
+  EXPECT_LT(bias(sharp), -0.01);  // too small
+  EXPECT_LT(std::abs(bias(soft)), 0.8 * std::abs(bias(sharp)));
+  EXPECT_LT(spread(soft), 0.8 * spread(sharp));
+}
+
+TEST(AlignDisparity, LargeDisparitiesAreMeasuredInTheImagesAsTheyAre) {
+  TrackerOptions options;
+  Frame frame;
+  frame.left = AlignmentPyramid(aliased_image(0), 4);
+  frame.right = AlignmentPyramid(aliased_image(1), 4);
+  const std::vector<double> sharp = mean_disparities(frame, options);
+  frame.soft_left = frame.left.softened(options.follow.soft_sigma);
+  frame.soft_right = frame.right.softened(options.follow.soft_sigma);
+  options.follow.soft_disparity = 0;  // none is below it
+  EXPECT_EQ(mean_disparities(frame, options), sharp);
 }
 
 }  // namespace

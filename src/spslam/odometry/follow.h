@@ -27,7 +27,8 @@ std::optional<Prediction> predict(const ActiveMap& map, const Landmark& landmark
                                   const SE3& camera_from_world);
 
 // Disparity (left x minus right x, px) of a point of the left image by alignment from `start`, first on
-// `first_level`; nothing if it fails, does not lead back, or the rows differ too much.
+// `first_level`, in the softened images if it is small and there are any; nothing if it fails, does not lead
+// back, or the rows differ too much.
 std::optional<double> align_disparity(const Frame& frame, const Eigen::Vector2f& left, double start,
                                       int first_level, const TrackerOptions& options);
 
