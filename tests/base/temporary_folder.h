@@ -11,7 +11,8 @@
 
 namespace spslam::test {
 
-// A folder for one test's files, removed with it. No two are the same: test cases run side by side, in processes of their own.
+// A folder for one test's files, removed with it. No two are the same: test cases run side by side, in
+// processes of their own.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -67,8 +67,8 @@ class Stages {
   std::vector<LoopAttempt> loop_log_;
   std::mutex view_mutex_;  // guards what follows, so that track() never waits for the mapper
   LocalMapView view_;
-  int unmapped_ = 0;                // keyframes on their way into the map
-  std::condition_variable mapped_;  // none is
+  int unmapped_ = 0;                    // keyframes on their way into the map
+  std::condition_variable mapped_;      // none is
   std::thread mapping_, loop_closing_;  // last: they use all of the above
 };
 
