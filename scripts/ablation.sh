@@ -10,6 +10,7 @@
 #   SEEDS    seeds 1 to so many (5)
 #   FRAMES   pairs of each run (150); 0 for the whole way
 #   PRESETS  their names (baseline sp-slam)
+#   CHANGES  options of all runs that differ from the presets', as `key=value`
 #   OUTPUT   folder for the runs (out/ablation); ablation.tsv in it has a line a run; data that are there already are used again
 #   KEEP     1 keeps what is rendered, which is removed after its use else
 #   SPSLAM   the program (build/release/bin/spslam)
@@ -18,6 +19,7 @@ cd "$(dirname "$(realpath "$0")")/.."
 . scripts/measuring.sh
 read -r -a scenes <<<"${SCENES:-bank bridge_turn canal fog_traffic glare lake_loop open_water rain}"
 read -r -a presets <<<"${PRESETS:-baseline sp-slam}"
+read -r -a changes <<<"${CHANGES:-}"
 seeds=${SEEDS:-5}
 frames=${FRAMES:-150}
 output=${OUTPUT:-out/ablation}
@@ -55,7 +57,7 @@ run_scene() {  # SCENE
     }
     for preset in "${presets[@]}"; do
       run=$output/$scene.$seed.$preset
-      "$program" run "$data" --preset "$preset" --sequential --quiet --output "$run" --overwrite
+      "$program" run "$data" --preset "$preset" --sequential --quiet --output "$run" --overwrite ${changes[@]+"${changes[@]/#/--set=}"}
       echo "$scene $seed $preset $(errors "$run") $(tracked "$run")" >>"$output/ablation.tsv"
     done
     [ "$rendered" = 0 ] || [ "${KEEP:-0}" = 1 ] || rm -r "$data"

@@ -252,7 +252,8 @@ std::vector<double> mean_disparities(const Frame& frame, const TrackerOptions& o
 
 TEST(AlignDisparity, ABlurTakesPartOfTheBiasByAliasingAway) {
   constexpr double kTrue = 0.25;  // px
-  const TrackerOptions options;
+  TrackerOptions options;
+  options.follow.soft_sigma = 0.7;
   Frame frame;
   frame.left = AlignmentPyramid(aliased_image(0), 4);
   frame.right = AlignmentPyramid(aliased_image(1), 4);
@@ -274,6 +275,7 @@ TEST(AlignDisparity, ABlurTakesPartOfTheBiasByAliasingAway) {
 
 TEST(AlignDisparity, LargeDisparitiesAreMeasuredInTheImagesAsTheyAre) {
   TrackerOptions options;
+  options.follow.soft_sigma = 0.7;
   Frame frame;
   frame.left = AlignmentPyramid(aliased_image(0), 4);
   frame.right = AlignmentPyramid(aliased_image(1), 4);

@@ -37,7 +37,7 @@ struct FollowOptions {
   double position_sigma = 0.35;
   double keypoint_sigma = 0.7;
   double disparity_sigma = 0.12;
-  double soft_sigma = 0.7;
+  double soft_sigma = 0;
   double soft_disparity = 1.5;
   double max_row_offset = 1.5;
   double max_return = 0.3;

@@ -18,7 +18,6 @@ SlamOptions feature_slam_options() {
   t.stereo_by_descriptor = true;
   t.follow.identity = Identity::kDescriptor;
   t.follow.align = false;
-  t.follow.soft_sigma = 0;
   t.follow.max_missed = 5;
   t.keyframe.lost_of_keyframe = 0.7;
   t.keyframe.max_frames = 20;
