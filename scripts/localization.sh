@@ -11,6 +11,7 @@
 #   SEED     of the scenes (1)
 #   FRAMES   pairs of each run (150)
 #   LIGHT    what differs in the other passage, as `key=value` of the scene
+#   CHANGES  options of all runs that differ from the preset's, as `key=value`
 #   OUTPUT   folder for the data and the runs (out/localization); data that are there already are used again
 #   SPSLAM   the program (build/release/bin/spslam)
 set -euo pipefail
@@ -18,6 +19,8 @@ cd "$(dirname "$(realpath "$0")")/.."
 . scripts/measuring.sh
 read -r -a scenes <<<"${SCENES:-bank bridge_turn canal fog_traffic glare lake_loop open_water rain}"
 read -r -a light <<<"${LIGHT:-passage=1 sky.sun_azimuth=200 sky.sun_elevation=55 sky.sun=0.5 motion.wave_height=0.2}"
+read -r -a changes <<<"${CHANGES:-}"
+changes=(${changes[@]+"${changes[@]/#/--set=}"})
 seed=${SEED:-1}
 frames=${FRAMES:-150}
 output=${OUTPUT:-out/localization}
@@ -50,16 +53,16 @@ for scene in "${scenes[@]}"; do
   data=$output/$scene
   simulate "$scene" "$data"
   simulate "$scene" "$data.other" "${light[@]/#/--set=}"
-  "$program" run "$data" --sequential --quiet --samples 0 --output "$data.run" --overwrite --save-map "$data.map"
+  "$program" run "$data" --sequential --quiet --samples 0 ${changes[@]+"${changes[@]}"} --output "$data.run" --overwrite --save-map "$data.map"
 done
 echo '| scene | map: ATE RMSE m | frames within 0.3 m, % | RMSE m | max m | nothing aligned: frames within 0.3 m, % | RMSE m | frames placed in the wrong map |'
 echo '|---|---|---|---|---|---|---|---|'
 for i in "${!scenes[@]}"; do
   data=$output/${scenes[i]} wrong=$output/${scenes[(i + 1) % ${#scenes[@]}]}
-  "$program" run "$data.other" --sequential --quiet --samples 0 --output "$data.found" --overwrite --load-map "$data.map" --localize
+  "$program" run "$data.other" --sequential --quiet --samples 0 ${changes[@]+"${changes[@]}"} --output "$data.found" --overwrite --load-map "$data.map" --localize
   placed=-
   if [ "$data" != "$wrong" ]; then
-    "$program" run "$data.other" --sequential --quiet --samples 0 --output "$data.lost" --overwrite --load-map "$wrong.map" --localize
+    "$program" run "$data.other" --sequential --quiet --samples 0 ${changes[@]+"${changes[@]}"} --output "$data.lost" --overwrite --load-map "$wrong.map" --localize
     placed=$(awk '!/^#/ { ++count } END { print count + 0 }' "$data.lost/trajectory_tum.txt")
   fi
   by_map=(--map-estimate "$data.run/trajectory_tum.txt" --map-truth "$data/poses.txt")
