@@ -269,6 +269,23 @@ TEST_F(Run, OutputThatCannotBeAFolder) {
   }
 }
 
+// The loop closer is not waited for, so there is none.
+TEST_F(Run, ThreadsWaitForTheMapAndGiveTheSequentialBytes) {
+  ASSERT_EQ(run({"--set", "loop.enabled=false"}).exit_code, 0);
+  const std::string sequential = result("trajectory_tum.txt");
+  const ProcessResult threads = run_spslam(
+      {"run", scene(), "--output", out(), "--overwrite", "--quiet", "--set", "loop.enabled=false"});
+  ASSERT_EQ(threads.exit_code, 0) << threads.err;
+  EXPECT_EQ(result("trajectory_tum.txt"), sequential);
+}
+
+TEST_F(Run, AheadOfTheMapIsForThreadsAtTheirOwnPace) {
+  EXPECT_EQ(run({"--ahead"}).exit_code, 2) << "--sequential";
+  EXPECT_EQ(run_spslam({"run", scene(), "--output", out(), "--ahead", "--realtime"}).exit_code, 2);
+  EXPECT_EQ(run_spslam({"run", scene(), "--output", out(), "--ahead"}).exit_code, 0);
+  EXPECT_EQ(frames().size(), 16U);
+}
+
 TEST_F(Run, FullDiskLosesNothingElse) {
   fs::create_directories(out());
   fs::create_symlink("/dev/full", out() + "/trajectory_tum.txt.partial");

@@ -233,6 +233,16 @@ cv::Mat aliased_image(int shift) {
   return image;
 }
 
+// A pair of them, a quarter of a pixel apart; sigma: of the blur of its softened images.
+Frame aliased_pair(double sigma) {
+  Frame frame;
+  frame.left = AlignmentPyramid(aliased_image(0), 4);
+  frame.right = AlignmentPyramid(aliased_image(1), 4);
+  if (sigma > 0) frame.soft_left = frame.left.softened(sigma);
+  if (sigma > 0) frame.soft_right = frame.right.softened(sigma);
+  return frame;
+}
+
 // The mean disparity of the points of a grid, by the fraction of a pixel at which they lie in the left image.
 std::vector<double> mean_disparities(const Frame& frame, const TrackerOptions& options) {
   std::vector<double> means;
@@ -252,15 +262,8 @@ std::vector<double> mean_disparities(const Frame& frame, const TrackerOptions& o
 
 TEST(AlignDisparity, ABlurTakesPartOfTheBiasByAliasingAway) {
   constexpr double kTrue = 0.25;  // px
-  TrackerOptions options;
-  options.follow.soft_sigma = 0.7;
-  Frame frame;
-  frame.left = AlignmentPyramid(aliased_image(0), 4);
-  frame.right = AlignmentPyramid(aliased_image(1), 4);
-  const std::vector<double> sharp = mean_disparities(frame, options);
-  frame.soft_left = frame.left.softened(options.follow.soft_sigma);
-  frame.soft_right = frame.right.softened(options.follow.soft_sigma);
-  const std::vector<double> soft = mean_disparities(frame, options);
+  const std::vector<double> sharp = mean_disparities(aliased_pair(0), {});
+  const std::vector<double> soft = mean_disparities(aliased_pair(0.7), {});
   const auto bias = [&](const std::vector<double>& all) {
     return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size()) - kTrue;
   };
@@ -275,15 +278,8 @@ TEST(AlignDisparity, ABlurTakesPartOfTheBiasByAliasingAway) {
 
 TEST(AlignDisparity, LargeDisparitiesAreMeasuredInTheImagesAsTheyAre) {
   TrackerOptions options;
-  options.follow.soft_sigma = 0.7;
-  Frame frame;
-  frame.left = AlignmentPyramid(aliased_image(0), 4);
-  frame.right = AlignmentPyramid(aliased_image(1), 4);
-  const std::vector<double> sharp = mean_disparities(frame, options);
-  frame.soft_left = frame.left.softened(options.follow.soft_sigma);
-  frame.soft_right = frame.right.softened(options.follow.soft_sigma);
   options.follow.soft_disparity = 0;  // none is below it
-  EXPECT_EQ(mean_disparities(frame, options), sharp);
+  EXPECT_EQ(mean_disparities(aliased_pair(0.7), options), mean_disparities(aliased_pair(0), options));
 }
 
 }  // namespace

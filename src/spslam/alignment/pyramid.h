@@ -18,7 +18,8 @@ class AlignmentPyramid {
   // grey: CV_8UC1, not empty. levels >= 1; fewer are made when the image gets smaller than a patch.
   AlignmentPyramid(const cv::Mat& grey, int levels);
 
-  // Level 0 blurred by a Gaussian (standard deviation in px), the coarser ones as they are and shared.
+  // Level 0 blurred by a Gaussian (standard deviation in px, above 0), the coarser ones as they are and
+  // shared. Not of an empty one.
   AlignmentPyramid softened(double sigma) const;
 
   int size() const { return static_cast<int>(levels_.size()); }
