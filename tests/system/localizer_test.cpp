@@ -4,7 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include "spslam/system/localizer.h"
 #include "spslam/system/map_encoding.h"
+#include "spslam/system/stages.h"
 #include "system/scene_run.h"
 
 namespace spslam {
@@ -141,6 +143,35 @@ TEST(Localizer, ThreadsFindItToo) {
   }
   slam.finish();
   EXPECT_EQ(result.status, TrackStatus::kTracking);
+}
+
+// Where the first frame is put by a place that is recognized in the last one alone, while odometry's steps are
+// half as long again as they are.
+double error_of_first(const std::vector<TrajectoryPose>& session) {
+  SlamOptions options = localizing();
+  options.localization.interval = options.localization.confirmations = 1;
+  Localizer localizer(scene_rig(), options, known_map());
+  Stages odometry(scene_rig(), options, Map{});
+  for (const StereoFrame& pair : scene_pairs()) {
+    TrackerOutput output = odometry.track(pair);
+    output.result.world_from_camera.translation *= 1.5;
+    if (&pair != &scene_pairs().back()) output.described.reset();
+    localizer.place(output);
+  }
+  localizer.finish(session);
+  const std::vector<TrajectoryPose> trajectory = localizer.trajectory();
+  EXPECT_EQ(trajectory.size(), scene_pairs().size());
+  return trajectory.empty() ? NAN : distance_from_truth(trajectory.front().world_from_camera, 0);
+}
+
+TEST(Localizer, WhatMappingCorrectsOfOdometryInTheEndCounts) {
+  std::vector<TrajectoryPose> corrected;
+  for (int i = 0; i < kSceneFrames; ++i)
+    corrected.push_back({FrameId{i}, scene_pairs()[static_cast<std::size_t>(i)].timestamp,
+                         TrackStatus::kTracking, scene_pose(i)});
+  const double way = distance_from_truth(scene_pose(kSceneFrames - 1), 0);
+  EXPECT_GT(error_of_first({}), 0.4 * way);
+  EXPECT_LT(error_of_first(corrected), 0.05);
 }
 
 TEST(Localizer, NeedsAMap) {

@@ -18,6 +18,7 @@ struct EvaluateArguments {
   EvaluationOptions options;
   std::string origin_estimate, origin_truth;
   TrajectoryPairFiles map;  // of the run that made the map
+  bool map_nearest = false;
   bool kitti = false;
   bool json = false;
 };
@@ -48,8 +49,11 @@ int evaluate_files(const EvaluateArguments& arguments) {
   TrajectoryPair pair = read_trajectory_pair(arguments.files);
   Evaluation map;
   if (!arguments.map.estimate.empty()) map = evaluate_map(arguments);
-  for (StampedPose& pose : pair.estimate)
+  for (StampedPose& pose : pair.estimate) {
     pose.world_from_camera = map.truth_from_estimate * pose.world_from_camera;
+    if (arguments.map_nearest)
+      pose.world_from_camera = laid_by_nearest(map.poses, pose.world_from_camera);
+  }
   const SE3 estimate_from_truth =
       first_pose(arguments.origin_estimate).inverse() * first_pose(arguments.origin_truth);
   for (StampedPose& pose : pair.truth) pose.world_from_camera = estimate_from_truth * pose.world_from_camera;
@@ -134,6 +138,11 @@ void add_evaluate(CLI::App& app, Command& chosen) {
       ->type_name("FILE")
       ->needs(map);
   map->needs("--map-truth");
+  command
+      ->add_flag("--map-nearest", arguments->map_nearest,
+                 "Lay the map on the world for each pose anew, by the nearest pose of the run that made it: "
+                 "what is measured is localization alone, without the map's own error")
+      ->needs(map);
   command->add_flag("--kitti", arguments->kitti, "The KITTI metric of each length too");
   command->add_flag("--json", arguments->json, "Print one JSON object instead of text");
   command->callback([arguments, &chosen] { chosen = [arguments] { return evaluate_files(*arguments); }; });

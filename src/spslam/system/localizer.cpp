@@ -37,11 +37,12 @@ void Localizer::stop() {
   if (worker_.joinable()) worker_.join();
 }
 
-void Localizer::finish() {
+void Localizer::finish(const std::vector<TrajectoryPose>& session) {
   if (std::exchange(is_finished_, true)) return;
   stop();
   if (frames_.empty()) return;
   take_answers();
+  take_over(session);
   smooth_pieces();
 }
 
@@ -118,7 +119,7 @@ void Localizer::take(const Answer& answer) {
   if (then.stretch != now.stretch) return;
   const SE3 motion = now.camera_from_session * then.camera_from_session.inverse();
   const UncertainPose present = moved(answer.pose, motion, drift_covariance(motion, options_.localization));
-  const SeenPlace seen{frames_.size() - 1, present};
+  const SeenPlace seen{answer.index, answer.pose};
   const FilterAnswer answered = filter_.add(present, answer.precise);
   if (answered == FilterAnswer::kPending) {
     unused_.push_back(seen);
@@ -153,6 +154,16 @@ void Localizer::place_backwards() {
     if (squared_distance(expected, seen.pose) <= options_.localization.gate) used_.push_back(seen);
   }
   unused_.clear();
+}
+
+// Odometry's first frames above all: it knows their depths by a single pair, mapping by all frames after it.
+void Localizer::take_over(const std::vector<TrajectoryPose>& session) {
+  auto corrected = session.begin();
+  for (PlacedFrame& frame : frames_) {
+    while (corrected != session.end() && corrected->frame.value < frame.frame.value) ++corrected;
+    if (corrected != session.end() && corrected->frame.value == frame.frame.value)
+      frame.camera_from_session = corrected->world_from_camera.inverse();
+  }
 }
 
 void Localizer::smooth_pieces() {

@@ -26,7 +26,9 @@ class Localizer {
   // What odometry says of a frame becomes what is known of it in the map. Frames in order. Its covariance is
   // that of the pose in the map.
   TrackResult place(const TrackerOutput& odometry);
-  void finish();
+  // session: the frames as odometry and its mapping have corrected them in the end; those that it lacks stay as
+  // they were tracked.
+  void finish(const std::vector<TrajectoryPose>& session);
 
   // Frames whose pose in the map is known; those before the camera was found too, by odometry backwards.
   // After finish() smoothed: each by what was recognized before and after it.
@@ -61,6 +63,7 @@ class Localizer {
   void take_answers();
   void take(const Answer& answer);
   void place_backwards();
+  void take_over(const std::vector<TrajectoryPose>& session);
   void smooth_pieces();
 
   StereoRig rig_;
@@ -69,7 +72,7 @@ class Localizer {
   KeyframeIndex index_;
   LocalizationFilter filter_;
   std::vector<PlacedFrame> frames_;
-  std::vector<SeenPlace> used_, unused_;  // of the frames in which the answers came
+  std::vector<SeenPlace> used_, unused_;
   int stretch_ = 0, pieces_ = 0;
   bool is_finished_ = false;
   BoundedQueue<Request> requests_{1};

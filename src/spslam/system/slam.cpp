@@ -28,6 +28,18 @@ std::vector<KeyframeInfo> keyframes_of(const Map& map) {
   return out;
 }
 
+// The frames as the map has corrected them.
+std::vector<TrajectoryPose> corrected_by(const Stages& stages) {
+  return stages.read([&](const Map& map) {
+    std::vector<TrajectoryPose> out;
+    for (const FramePose& frame : stages.settled())
+      if (const auto reference = map.camera_from_world(frame.reference))
+        out.push_back({frame.frame, frame.timestamp, frame.status,
+                       (frame.camera_from_reference * *reference).inverse()});
+    return out;
+  });
+}
+
 }  // namespace
 
 Slam::Slam(const StereoRig& rig, const SlamOptions& options, Map map) : rig_(rig) {
@@ -61,19 +73,11 @@ void Slam::wait_for_map() {
 
 void Slam::finish() {
   stages_->finish();
-  if (localizer_) localizer_->finish();
+  if (localizer_) localizer_->finish(corrected_by(*stages_));
 }
 
 std::vector<TrajectoryPose> Slam::trajectory() const {
-  if (localizer_) return localizer_->trajectory();
-  return stages_->read([&](const Map& map) {
-    std::vector<TrajectoryPose> out;
-    for (const FramePose& frame : stages_->settled())
-      if (const auto reference = map.camera_from_world(frame.reference))
-        out.push_back({frame.frame, frame.timestamp, frame.status,
-                       (frame.camera_from_reference * *reference).inverse()});
-    return out;
-  });
+  return localizer_ ? localizer_->trajectory() : corrected_by(*stages_);
 }
 
 std::vector<KeyframeInfo> Slam::keyframes() const {
