@@ -17,7 +17,7 @@ struct LocalizationOptions {
   int interval = 5;
   int nearest = 2;
   int confirmations = 2;
-  double drift = 0.02;
+  double drift = 0.01;
   double turn_drift = 0.02;
   double correlation = 10;
   double map_sigma = 0.05;
