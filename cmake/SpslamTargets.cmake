@@ -15,10 +15,15 @@ if(SPSLAM_SANITIZE)
   target_compile_definitions(spslam_build_flags INTERFACE SPSLAM_SANITIZED=1)
 endif()
 
-# Coverage of all of the library guides the fuzzers.
-if(SPSLAM_BUILD_FUZZ)
-  target_compile_options(spslam_build_flags INTERFACE -fsanitize=fuzzer-no-link)
+# At every access through a pointer or a reference, and Eigen has little else; AddressSanitizer or the processor finds the same.
+if(SPSLAM_SANITIZE MATCHES "undefined")
+  target_compile_options(spslam_build_flags INTERFACE -fno-sanitize=alignment,null,object-size)
 endif()
+
+# Folders that read what comes from outside: their coverage guides the fuzzers. It is a call at every comparison, so not for arithmetic.
+set(SPSLAM_FUZZED_FOLDERS base io map loop system)
+# What -fsanitize=fuzzer-no-link stands for, which would ask for a precompiled header of its own.
+set(SPSLAM_FUZZ_COVERAGE -fsanitize-coverage=inline-8bit-counters,indirect-calls,trace-cmp,pc-table)
 
 if(SPSLAM_PRECOMPILED_HEADERS)
   file(WRITE ${CMAKE_BINARY_DIR}/pch/empty.cpp "// the precompiled header's own translation unit\n")
@@ -56,6 +61,9 @@ function(spslam_library folder)
   # The compiler's option, not a definition, and PUBLIC: Eigen's alignment must agree between the library and its users.
   if(SPSLAM_NATIVE)
     target_compile_options(${target} PUBLIC -march=native)
+  endif()
+  if(SPSLAM_BUILD_FUZZ AND folder IN_LIST SPSLAM_FUZZED_FOLDERS)
+    target_compile_options(${target} PRIVATE ${SPSLAM_FUZZ_COVERAGE})
   endif()
   target_link_libraries(${target} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder})
