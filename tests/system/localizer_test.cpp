@@ -145,8 +145,8 @@ TEST(Localizer, ThreadsFindItToo) {
   EXPECT_EQ(result.status, TrackStatus::kTracking);
 }
 
-// Where the first frame is put by a place that is recognized in the last one alone, while odometry's steps are
-// half as long again as they are.
+// Where the first frame is put by a place that is recognized in the last one alone, while odometry's steps
+// are half as long again as they are.
 double error_of_first(const std::vector<TrajectoryPose>& session) {
   SlamOptions options = localizing();
   options.localization.interval = options.localization.confirmations = 1;

@@ -51,8 +51,7 @@ int evaluate_files(const EvaluateArguments& arguments) {
   if (!arguments.map.estimate.empty()) map = evaluate_map(arguments);
   for (StampedPose& pose : pair.estimate) {
     pose.world_from_camera = map.truth_from_estimate * pose.world_from_camera;
-    if (arguments.map_nearest)
-      pose.world_from_camera = laid_by_nearest(map.poses, pose.world_from_camera);
+    if (arguments.map_nearest) pose.world_from_camera = laid_by_nearest(map.poses, pose.world_from_camera);
   }
   const SE3 estimate_from_truth =
       first_pose(arguments.origin_estimate).inverse() * first_pose(arguments.origin_truth);

@@ -87,10 +87,9 @@ SE3 laid_by_nearest(std::span<const AssociatedPose> map, const SE3& pose) {
   const auto distance = [&](const AssociatedPose& known) {
     return (known.estimate.translation - pose.translation).squaredNorm();
   };
-  const auto nearest =
-      std::min_element(map.begin(), map.end(), [&](const AssociatedPose& a, const AssociatedPose& b) {
-        return distance(a) < distance(b);
-      });
+  const auto nearest = std::min_element(
+      map.begin(), map.end(),
+      [&](const AssociatedPose& a, const AssociatedPose& b) { return distance(a) < distance(b); });
   return nearest == map.end() ? pose : nearest->truth * nearest->estimate.inverse() * pose;
 }
 

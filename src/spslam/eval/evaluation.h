@@ -58,8 +58,8 @@ struct Evaluation {
 // Throws InputError if fewer than three poses can be associated, OptionError if an option is out of range.
 Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const EvaluationOptions& options);
 
-// A pose that was found in a map, in the world: as the map's nearest pose (by position, of the run that made the
-// map, `map` being its Evaluation::poses) lies to its own truth. Without any, the pose as it is.
+// A pose that was found in a map, in the world: as the map's nearest pose (by position, of the run that made
+// the map, `map` being its Evaluation::poses) lies to its own truth. Without any, the pose as it is.
 SE3 laid_by_nearest(std::span<const AssociatedPose> map, const SE3& pose);
 
 struct ReportStyle {

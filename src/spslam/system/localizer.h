@@ -26,8 +26,8 @@ class Localizer {
   // What odometry says of a frame becomes what is known of it in the map. Frames in order. Its covariance is
   // that of the pose in the map.
   TrackResult place(const TrackerOutput& odometry);
-  // session: the frames as odometry and its mapping have corrected them in the end; those that it lacks stay as
-  // they were tracked.
+  // session: the frames as odometry and its mapping have corrected them in the end; those that it lacks stay
+  // as they were tracked.
   void finish(const std::vector<TrajectoryPose>& session);
 
   // Frames whose pose in the map is known; those before the camera was found too, by odometry backwards.
