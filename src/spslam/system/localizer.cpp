@@ -3,6 +3,8 @@
 
 #include "spslam/system/localizer.h"
 
+#include <map>
+
 #include "spslam/base/log.h"
 
 namespace spslam {
@@ -158,12 +160,12 @@ void Localizer::place_backwards() {
 
 // Odometry's first frames above all: it knows their depths by a single pair, mapping by all frames after it.
 void Localizer::take_over(const std::vector<TrajectoryPose>& session) {
-  auto corrected = session.begin();
-  for (PlacedFrame& frame : frames_) {
-    while (corrected != session.end() && corrected->frame.value < frame.frame.value) ++corrected;
-    if (corrected != session.end() && corrected->frame.value == frame.frame.value)
-      frame.camera_from_session = corrected->world_from_camera.inverse();
-  }
+  std::map<FrameId, SE3> camera_from_session;
+  for (const TrajectoryPose& pose : session)
+    camera_from_session[pose.frame] = pose.world_from_camera.inverse();
+  for (PlacedFrame& frame : frames_)
+    if (const auto corrected = camera_from_session.find(frame.frame); corrected != camera_from_session.end())
+      frame.camera_from_session = corrected->second;
 }
 
 void Localizer::smooth_pieces() {
