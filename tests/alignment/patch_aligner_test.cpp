@@ -58,6 +58,39 @@ TEST_P(Shifts, AreFoundWithoutBiasUnderGainAndOffset) {
 
 INSTANTIATE_TEST_SUITE_P(Pixels, Shifts, testing::Values(0.0, 0.25, 0.5, -0.3, 1.8, 5.1, -9.4));
 
+// Low contrast in fog: what is there correlates far less than the threshold asks, and is right all the same.
+TEST(PatchAligner, NoiseIsNotAskedToBeAlike) {
+  const Texture texture(5);
+  const auto fog = [&](double shift, std::uint64_t seed) {
+    const auto part = [&](double x, double y) {
+      return Eigen::Vector2d(std::max(x, kWidth / 3.0) - shift, x > kWidth / 3.0 ? y : 0);
+    };
+    return AlignmentPyramid(render(texture, part, 0.8, 128, 1.5, seed), 3);
+  };
+  const AlignmentPyramid from = fog(0, 7), to = fog(0.4, 8);
+  AlignmentOptions strict, fair;
+  strict.noise_factor = 0;
+  int by_strict = 0, by_fair = 0;
+  int near = 0;
+  for (float y = 25; y < kHeight - 25; y += 7)
+    for (float x = kWidth / 2; x < kWidth - 25; x += 7) {
+      const Eigen::Vector2f at(x, y);
+      by_strict += align_patch(from, at, to, at, Eigen::Matrix2f::Identity(), strict).ok();
+      const Alignment found = align_patch(from, at, to, at, Eigen::Matrix2f::Identity(), fair);
+      if (!found.ok()) continue;
+      ++by_fair;
+      near += std::abs(found.position.x() - x - 0.4F) < 0.5F;
+    }
+  EXPECT_GT(by_fair, 20);
+  EXPECT_LT(by_strict, by_fair / 2);
+  EXPECT_GT(near, 0.75 * by_fair);
+  // Patches of noise alone have nothing in common, and are refused.
+  for (float y = 25; y < kHeight - 25; y += 7) {
+    const Eigen::Vector2f at(20, y);
+    EXPECT_FALSE(align_patch(from, at, to, at, Eigen::Matrix2f::Identity(), fair).ok());
+  }
+}
+
 TEST(PatchAligner, VarianceIsThatOfTheErrors) {
   const Texture texture(5);
   const auto moved = [&](double x, double y) { return Eigen::Vector2d(x - 0.4, y); };

@@ -117,11 +117,29 @@ TEST(LocalizationFilter, ItsCovarianceIsThatOfItsError) {
   EXPECT_NEAR(sum / kRuns, 6, 0.97);
 }
 
-TEST(LocalizationFilter, WhatIsNotPreciseCorrectsButNeitherBeginsNorContradicts) {
+TEST(LocalizationFilter, TwoPlacesThatAreNotPreciseConfirmAsMuchAsOneThatIs) {
+  const SE3 truth;
+  const auto beginning = [&](std::vector<bool> precise, double sigma) {
+    LocalizationFilter filter({});
+    for (const bool each : precise) filter.add(pose_at(truth, sigma), each);
+    return filter.estimate().has_value();
+  };
+  EXPECT_FALSE(beginning({false, false, false}, 0.3));
+  EXPECT_TRUE(beginning({false, false, false, false}, 0.3));
+  EXPECT_FALSE(beginning({true, false}, 0.3));
+  EXPECT_TRUE(beginning({true, false, false}, 0.3));
+  EXPECT_TRUE(beginning({true, true}, 0.3));
+  // Those that hardly tell the position begin nothing, however many.
+  EXPECT_FALSE(beginning(std::vector<bool>(20, false), 2));
+  // Nor do those that do not agree.
+  LocalizationFilter filter({});
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(filter.add(pose_at(shifted(truth, 5 * i)), false), FilterAnswer::kPending);
+}
+
+TEST(LocalizationFilter, WhatIsNotPreciseCorrectsButDoesNotContradict) {
   LocalizationFilter filter({});
   const SE3 truth;
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(filter.add(pose_at(truth), false), FilterAnswer::kPending);
-  EXPECT_FALSE(filter.estimate());
   filter.add(pose_at(truth));
   filter.add(pose_at(truth));
   const double before = filter.estimate()->position_sigma();

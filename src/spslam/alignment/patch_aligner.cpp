@@ -13,7 +13,8 @@ namespace {
 constexpr int kMaxRows = 15;
 constexpr int kStride =
     16;  // floats a row; columns beyond the patch have zero weight, so that loops have a fixed length
-constexpr int kWide = 24;  // floats a row of the template with a frame of one pixel around it
+constexpr int kWide = 24;                  // floats a row of the template with a frame of one pixel around it
+constexpr float kLeastCorrelation = 0.5F;  // whatever the noise
 
 // The template on one level and what of it does not depend on the target: deviations t from its mean, and
 // gradients with the mean and the part along t taken out, so that offset and gain of brightness drop out of
@@ -181,9 +182,21 @@ AlignmentStatus align_on_level(const Template& p, const cv::Mat& target, Eigen::
   return AlignmentStatus::kUnconverged;
 }
 
+// The correlation to ask for. Two views of one patch of variance s^2 with noise n^2 each correlate by s^2 /
+// (s^2 + n^2), be they ever so well aligned; in fog that is far below what textured patches reach. Variances
+// are those measured, noise included.
+float least_correlation(float template_variance, float target_variance, float noise_variance,
+                        const AlignmentOptions& options) {
+  const auto asked = static_cast<float>(options.min_correlation);
+  const auto own = [&](float variance) { return std::max(0.0F, 1 - noise_variance / variance); };
+  return std::max(std::min(asked, kLeastCorrelation),
+                  asked * std::sqrt(own(template_variance) * own(target_variance)));
+}
+
 // The quality of the match from the last sums: correlation, and the covariance that the residual noise gives
 // the position.
-void judge(const Template& p, const Sums& sums, const AlignmentOptions& options, Alignment& result) {
+void judge(const Template& p, const Sums& sums, float noise_variance, const AlignmentOptions& options,
+           Alignment& result) {
   const auto count = static_cast<float>(p.rows * p.rows);
   const float energy = std::max(sums.square - sums.value * sums.value / count, 1e-6F);
   const float gain = sums.along_t / p.energy;
@@ -192,7 +205,7 @@ void judge(const Template& p, const Sums& sums, const AlignmentOptions& options,
   const auto floor = static_cast<float>(options.noise * options.noise);
   result.covariance = std::max(residual, floor) / (gain * gain) * p.inverse_hessian;
   if (result.status == AlignmentStatus::kOk &&
-      result.correlation < static_cast<float>(options.min_correlation))
+      result.correlation < least_correlation(p.energy / count, energy / count, noise_variance, options))
     result.status = AlignmentStatus::kDifferent;
 }
 
@@ -207,6 +220,8 @@ Alignment align_patch(const AlignmentPyramid& from, const Eigen::Vector2f& point
   int level = first_level < 0 ? levels - 1 : std::min(first_level, levels - 1);
   const Eigen::Matrix2f from_to_warp = to_from_warp.inverse();
   if (!from_to_warp.allFinite() || !start.allFinite()) return result;
+  const auto noise_factor = static_cast<float>(options.noise_factor);
+  const float noise_variance = noise_factor * noise_factor * from.noise() * to.noise();
   Template patch;
   for (; level >= 0; --level) {
     const float scale = 1.0F / static_cast<float>(1 << level);
@@ -221,7 +236,7 @@ Alignment align_patch(const AlignmentPyramid& from, const Eigen::Vector2f& point
     if (level == 0) {
       result.position = position;
       if (result.status != AlignmentStatus::kFlat && result.status != AlignmentStatus::kOutside)
-        judge(patch, sums, options, result);
+        judge(patch, sums, noise_variance, options, result);
     } else if (result.status == AlignmentStatus::kOk || result.status == AlignmentStatus::kUnconverged) {
       result.position = position / scale;  // a coarse level that fails leaves the start to the finer ones
     }

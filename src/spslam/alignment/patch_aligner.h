@@ -20,6 +20,7 @@ struct AlignmentOptions {
   double convergence = 0.01;
   double min_contrast = 2.0;
   double min_correlation = 0.87;
+  double noise_factor = 1.8;
   double noise = 2.0;
 
   template <class Self, class Visitor>
@@ -32,6 +33,10 @@ struct AlignmentOptions {
           {"min_contrast", "grey values", "standard deviation that a patch must have", 0, 100});
     visit(self.min_correlation,
           {"min_correlation", "", "normalized correlation below which a match is refused", -1, 1});
+    visit(self.noise_factor, {"noise_factor", "",
+                              "of the image's own noise, which two views of one patch need not have in "
+                              "common; 0: asked of all alike",
+                              0, 10});
     visit(self.noise,
           {"noise", "grey values", "image noise at least assumed for the variance of a position", 0.1, 50});
   }

@@ -26,9 +26,13 @@ class AlignmentPyramid {
   bool empty() const { return levels_.empty(); }
   // The level without its border; a pixel x of the full-size image lies at x / 2^level.
   const cv::Mat& level(int i) const { return levels_[i]; }
+  // Standard deviation of the full-size image's noise, grey values: from the second differences where it is
+  // smoothest (Immerkaer, "Fast noise variance estimation", 1996). Overestimated where nothing is smooth.
+  float noise() const { return noise_; }
 
  private:
   std::vector<cv::Mat> levels_;  // views into bordered images
+  float noise_ = 0;
 };
 
 }  // namespace spslam

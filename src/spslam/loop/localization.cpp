@@ -12,6 +12,7 @@ namespace {
 constexpr double kDegree = M_PI / 180;
 constexpr double kMaxTurn = 40 * kDegree;  // between views that may show the same
 constexpr double kMetresPerRadian = 5;     // a turn is as bad as so much way
+constexpr int kPreciseVoice = 2;           // places that are not precise that confirm as much as one that is
 
 // What is known by both, as far as there is anything.
 std::optional<UncertainPose> both(const std::optional<UncertainPose>& a,
@@ -51,17 +52,19 @@ bool LocalizationFilter::agree(const UncertainPose& a, const UncertainPose& b) c
 FilterAnswer LocalizationFilter::add(const UncertainPose& measured, bool precise) {
   if (!measured.camera_from_world.is_finite() || !measured.covariance.allFinite())
     return FilterAnswer::kPending;
-  if (!precise && !estimate()) return FilterAnswer::kPending;
+  const bool is_found = estimate().has_value();
+  if (!precise && !is_found && measured.position_sigma() > options_.start_sigma)
+    return FilterAnswer::kPending;
   if (estimate_ && agree(*estimate_, measured)) {
     estimate_ = fused(*estimate_, measured);
     if (precise) pending_.reset(), agreeing_ = 0;
     return FilterAnswer::kUsed;
   }
-  if (!precise) return FilterAnswer::kPending;
+  if (!precise && is_found) return FilterAnswer::kPending;
   const bool confirms = pending_ && agree(*pending_, measured);
-  agreeing_ = confirms ? agreeing_ + 1 : 1;
+  agreeing_ = (confirms ? agreeing_ : 0) + (precise ? kPreciseVoice : 1);
   pending_ = confirms ? fused(*pending_, measured) : measured;
-  if (agreeing_ < options_.confirmations) return FilterAnswer::kPending;
+  if (agreeing_ < kPreciseVoice * options_.confirmations) return FilterAnswer::kPending;
   estimate_ = pending_;
   pending_.reset();
   agreeing_ = 0;

@@ -17,6 +17,7 @@ struct LocalizationOptions {
   int interval = 5;
   int nearest = 2;
   int confirmations = 2;
+  double start_sigma = 0.7;
   double drift = 0.01;
   double turn_drift = 0.02;
   double correlation = 10;
@@ -33,6 +34,10 @@ struct LocalizationOptions {
           {"nearest", "", "keyframes tried because they are near where the camera should be", 0, 100});
     visit(self.confirmations,
           {"confirmations", "", "attempts that must agree by odometry before the camera counts as found", 1,
+           100});
+    visit(self.start_sigma,
+          {"start_sigma", "m",
+           "of a place that is not precise up to which it helps to find the camera, two counting as one", 0,
            100});
     visit(self.drift, {"drift", "m/m", "error of odometry over its way", 1e-4, 10});
     visit(self.turn_drift, {"turn_drift", "deg/m", "of its rotation", 1e-4, 90});
@@ -61,7 +66,7 @@ class LocalizationFilter {
   // The camera has moved, as odometry says.
   void move(const SE3& present_from_before);
   // A place was recognized; its pose is the camera's of now. One that is not `precise`, as where all is far,
-  // corrects what is known, but neither begins nor contradicts it.
+  // corrects what is known, but does not contradict it, and counts half where nothing is known.
   FilterAnswer add(const UncertainPose& measured, bool precise = true);
   // Odometry was broken off: nothing is known any more.
   void forget() { estimate_.reset(), pending_.reset(), agreeing_ = 0; }
@@ -76,7 +81,7 @@ class LocalizationFilter {
   LocalizationOptions options_;
   std::optional<UncertainPose> estimate_;
   std::optional<UncertainPose> pending_;  // the last attempts that did not agree, but with each other
-  int agreeing_ = 0;                      // attempts in a row that agree with each other on it
+  int agreeing_ = 0;                      // attempts in a row that agree on it, precise ones counting twice
 };
 
 // Covariance of odometry's error over a motion, of a left perturbation of it.
