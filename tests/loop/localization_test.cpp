@@ -119,8 +119,10 @@ TEST(LocalizationFilter, ItsCovarianceIsThatOfItsError) {
 
 TEST(LocalizationFilter, TwoPlacesThatAreNotPreciseConfirmAsMuchAsOneThatIs) {
   const SE3 truth;
-  const auto beginning = [&](std::vector<bool> precise, double sigma) {
-    LocalizationFilter filter({});
+  LocalizationOptions options;
+  options.start_sigma = 0.7;
+  const auto beginning = [&](const std::vector<bool>& precise, double sigma) {
+    LocalizationFilter filter(options);
     for (const bool each : precise) filter.add(pose_at(truth, sigma), each);
     return filter.estimate().has_value();
   };
@@ -132,14 +134,16 @@ TEST(LocalizationFilter, TwoPlacesThatAreNotPreciseConfirmAsMuchAsOneThatIs) {
   // Those that hardly tell the position begin nothing, however many.
   EXPECT_FALSE(beginning(std::vector<bool>(20, false), 2));
   // Nor do those that do not agree.
-  LocalizationFilter filter({});
+  LocalizationFilter filter(options);
   for (int i = 0; i < 20; ++i)
     EXPECT_EQ(filter.add(pose_at(shifted(truth, 5 * i)), false), FilterAnswer::kPending);
 }
 
-TEST(LocalizationFilter, WhatIsNotPreciseCorrectsButDoesNotContradict) {
+TEST(LocalizationFilter, WhatIsNotPreciseCorrectsButNeitherBeginsNorContradicts) {
   LocalizationFilter filter({});
   const SE3 truth;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(filter.add(pose_at(truth), false), FilterAnswer::kPending);
+  EXPECT_FALSE(filter.estimate());
   filter.add(pose_at(truth));
   filter.add(pose_at(truth));
   const double before = filter.estimate()->position_sigma();

@@ -17,7 +17,7 @@ struct LocalizationOptions {
   int interval = 5;
   int nearest = 2;
   int confirmations = 2;
-  double start_sigma = 0.7;
+  double start_sigma = 0;
   double drift = 0.01;
   double turn_drift = 0.02;
   double correlation = 10;
@@ -66,7 +66,7 @@ class LocalizationFilter {
   // The camera has moved, as odometry says.
   void move(const SE3& present_from_before);
   // A place was recognized; its pose is the camera's of now. One that is not `precise`, as where all is far,
-  // corrects what is known, but does not contradict it, and counts half where nothing is known.
+  // corrects what is known, but does not contradict it; whether it helps to begin: start_sigma.
   FilterAnswer add(const UncertainPose& measured, bool precise = true);
   // Odometry was broken off: nothing is known any more.
   void forget() { estimate_.reset(), pending_.reset(), agreeing_ = 0; }

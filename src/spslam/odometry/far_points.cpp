@@ -75,8 +75,13 @@ void FarPoints::weigh(const ActiveMap& map, const SE3& predicted, FrameId frame,
   weight_ = std::max(options.min_weight, std::accumulate(inlier_share_.begin(), inlier_share_.end(), 0.0) /
                                              static_cast<double>(inlier_share_.size()));
   if (share <= 0) return;  // no consensus at all: the weight says so, and the robust loss has to do
-  // Those refused say nothing now, but stay followed: it may be the consensus that is wrong.
-  for (std::size_t i = 0; i < far.size(); ++i) sightings[far[i].sighting].weight = inlier[i] ? weight_ : 0;
+  std::vector<char> refused(sightings.size(), 0);
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    sightings[far[i].sighting].weight = weight_;
+    refused[far[i].sighting] = !inlier[i];
+  }
+  std::size_t s = 0;
+  std::erase_if(sightings, [&](const Sighting&) { return refused[s++] != 0; });
 }
 
 }  // namespace spslam

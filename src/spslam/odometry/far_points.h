@@ -13,7 +13,7 @@ namespace spslam {
 
 class FarPoints {
  public:
-  // Weighs the far sightings, those that RANSAC refuses with 0; near ones keep weight 1. Far points
+  // Drops the far sightings that RANSAC refuses and weighs the others; near ones keep weight 1. Far points
   // turn with the camera and hardly move with it: the hypotheses are corrections of the predicted rotation,
   // each from two points (Fischler and Bolles, 1981; Kabsch's rotation). Seeded by the frame, so that every
   // run draws the same.
