@@ -65,7 +65,7 @@ TEST(PatchAligner, NoiseIsNotAskedToBeAlike) {
     const auto part = [&](double x, double y) {
       return Eigen::Vector2d(std::max(x, kWidth / 3.0) - shift, x > kWidth / 3.0 ? y : 0);
     };
-    return AlignmentPyramid(render(texture, part, 0.8, 128, 1.5, seed), 3);
+    return AlignmentPyramid(render(texture, part, 0.8, 128, 1.5, seed), 3, true);
   };
   const AlignmentPyramid from = fog(0, 7), to = fog(0.4, 8);
   AlignmentOptions strict, fair;

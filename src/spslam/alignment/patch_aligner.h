@@ -33,10 +33,9 @@ struct AlignmentOptions {
           {"min_contrast", "grey values", "standard deviation that a patch must have", 0, 100});
     visit(self.min_correlation,
           {"min_correlation", "", "normalized correlation below which a match is refused", -1, 1});
-    visit(self.noise_factor, {"noise_factor", "",
-                              "of the image's own noise, which two views of one patch need not have in "
-                              "common; 0: asked of all alike",
-                              0, 10});
+    visit(self.noise_factor,
+          {"noise_factor", "",
+           "times the image's own noise, which two views of a patch need not share; 0: off", 0, 10});
     visit(self.noise,
           {"noise", "grey values", "image noise at least assumed for the variance of a position", 0.1, 50});
   }

@@ -71,9 +71,9 @@ float noise_of(const cv::Mat& grey) {
 
 }  // namespace
 
-AlignmentPyramid::AlignmentPyramid(const cv::Mat& grey, int levels) {
+AlignmentPyramid::AlignmentPyramid(const cv::Mat& grey, int levels, bool measure_noise) {
   CV_Assert(grey.type() == CV_8UC1 && !grey.empty());
-  noise_ = noise_of(grey);
+  if (measure_noise) noise_ = noise_of(grey);
   cv::Size size = grey.size();
   for (int i = 0; i < levels && (i == 0 || std::min(size.width, size.height) >= kSmallestSide); ++i) {
     cv::Mat view = bordered_view(size);
@@ -93,7 +93,7 @@ AlignmentPyramid AlignmentPyramid::softened(double sigma) const {
   cv::GaussianBlur(levels_.front(), view, {}, sigma, sigma, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
   fill_border(view);
   out.levels_.front() = view;
-  out.noise_ = noise_of(view);
+  if (noise_ > 0) out.noise_ = noise_of(view);
   return out;
 }
 

@@ -16,7 +16,8 @@ class AlignmentPyramid {
 
   AlignmentPyramid() = default;
   // grey: CV_8UC1, not empty. levels >= 1; fewer are made when the image gets smaller than a patch.
-  AlignmentPyramid(const cv::Mat& grey, int levels);
+  // measure_noise: only AlignmentOptions::noise_factor asks for it.
+  AlignmentPyramid(const cv::Mat& grey, int levels, bool measure_noise = false);
 
   // Level 0 blurred by a Gaussian (standard deviation in px, above 0), the coarser ones as they are and
   // shared. Not of an empty one.
@@ -27,7 +28,8 @@ class AlignmentPyramid {
   // The level without its border; a pixel x of the full-size image lies at x / 2^level.
   const cv::Mat& level(int i) const { return levels_[i]; }
   // Standard deviation of the full-size image's noise, grey values: from the second differences where it is
-  // smoothest (Immerkaer, "Fast noise variance estimation", 1996). Overestimated where nothing is smooth.
+  // smoothest (Immerkaer, "Fast noise variance estimation", 1996). Overestimated where nothing is smooth; 0
+  // if it was not measured.
   float noise() const { return noise_; }
 
  private:

@@ -58,14 +58,15 @@ Frame FrontEnd::process(const StereoFrame& pair, FrameId id) {
   frame.timestamp = pair.timestamp;
   image_ = pair.left;
   Features right_features;
+  const bool noise = options_.alignment.noise_factor > 0;
   tbb::parallel_invoke(
       [&] {
-        frame.left = AlignmentPyramid(pair.left, options_.alignment.levels);
+        frame.left = AlignmentPyramid(pair.left, options_.alignment.levels, noise);
         if (options_.follow.soft_sigma > 0) frame.soft_left = frame.left.softened(options_.follow.soft_sigma);
         if (needs_features()) frame.features = left_.extract(pair.left);
       },
       [&] {
-        frame.right = AlignmentPyramid(pair.right, options_.alignment.levels);
+        frame.right = AlignmentPyramid(pair.right, options_.alignment.levels, noise);
         if (options_.follow.soft_sigma > 0)
           frame.soft_right = frame.right.softened(options_.follow.soft_sigma);
         if (needs_features()) right_features = right_.extract(pair.right);
