@@ -13,8 +13,6 @@ struct NewLandmark {
   Sighting sighting;  // the host's own: its disparity only
 };
 
-// Corners of the frame away from the sightings, each with a disparity. A disparity about zero, or below, is
-// kept: the point is a direction without a depth, and says so by the information of its inverse depth.
 // Disparity of a point of the left image by row search and alignment, px; nothing if it is not found or two
 // places are alike.
 std::optional<double> measure_disparity(const Frame& frame, const Eigen::Vector2f& left,
@@ -25,6 +23,8 @@ std::optional<double> measure_disparity(const Frame& frame, const Eigen::Vector2
 KeyframeFeatures describe(const Frame& frame, const StereoRig& rig, const DisparityOffset& offset,
                           FrontEnd& front_end, const TrackerOptions& options);
 
+// Corners of the frame away from the sightings, each with a disparity. A disparity about zero, or below, is
+// kept: the point is a direction without a depth, and says so by the information of its inverse depth.
 std::vector<NewLandmark> find_new_landmarks(const ActiveMap& map, const Frame& frame,
                                             const std::vector<Sighting>& sightings, FrontEnd& front_end,
                                             const TrackerOptions& options);
