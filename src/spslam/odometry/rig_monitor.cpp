@@ -60,7 +60,7 @@ DisparityOffset RigMonitor::update(const ActiveMap& map, const SolverOptions& so
                            leaves_points_in_front(disparities_of(map.window.back()), offset.coefficients[0],
                                                   options.window_scatter);
   if (summary.status != SolveStatus::kFailed && is_possible &&
-      information * options.window_scatter * options.window_scatter > 1) {
+      information * options.max_sigma * options.max_sigma > 1) {
     estimates_.push_back(offset.coefficients[0]);
     if (static_cast<int>(estimates_.size()) > options.memory) estimates_.pop_front();
   }

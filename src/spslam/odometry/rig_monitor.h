@@ -16,6 +16,7 @@ struct RigOptions {
   bool estimate = true;
   int memory = 40;
   double window_scatter = 0.1;
+  double max_sigma = 0.03;
   double floor = 0.1;
   double max_rotation = 5;
   double max_offset = 1;
@@ -27,6 +28,7 @@ struct RigOptions {
     visit(self.memory, {"memory", "", "windows whose estimates are combined", 1, 10000});
     visit(self.window_scatter, {"window_scatter", "px",
                                 "scatter of the windows' estimates assumed before there are several", 0, 10});
+    visit(self.max_sigma, {"max_sigma", "px", "windows that know the offset less well are left out", 0, 10});
     visit(self.floor,
           {"floor", "px", "offset that alignment itself may cause: none smaller is believed", 0, 10});
     visit(self.max_rotation,
