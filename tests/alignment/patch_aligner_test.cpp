@@ -69,6 +69,7 @@ TEST(PatchAligner, NoiseIsNotAskedToBeAlike) {
   };
   const AlignmentPyramid from = fog(0, 7), to = fog(0.4, 8);
   AlignmentOptions strict, fair;
+  strict.noise_factor = 0;
   fair.noise_factor = 1.8;
   int by_strict = 0, by_fair = 0;
   int near = 0;

@@ -183,5 +183,21 @@ TEST(Trials, AllLandmarksCountWhereNearlyAllAreOnTrial) {
   EXPECT_EQ(position_error(world), misled);
 }
 
+// Found out otherwise, as by movers.h: even a proven one is let go, and its place is trusted less.
+TEST(Trials, RefutesWhatItIsTold) {
+  test::SyntheticMap world = wavy_world(0);
+  Trials trials({});
+  judge_all(world, trials);
+  const Eigen::Vector2f place = world.map.landmarks.front().landmark.pixel;
+  for (int i = 0; i < 30; ++i) {
+    ActiveLandmark active = world.map.landmarks.front();
+    trials.refute(world.map.rig, kMaxMissed, active);
+    EXPECT_EQ(active.verdict, Verdict::kRefuted);
+    EXPECT_TRUE(active.on_trial);
+    EXPECT_GT(active.missed, kMaxMissed);
+  }
+  EXPECT_TRUE(trials.needed_at(world.map.rig, place));
+}
+
 }  // namespace
 }  // namespace spslam

@@ -20,7 +20,7 @@ struct AlignmentOptions {
   double convergence = 0.01;
   double min_contrast = 2.0;
   double min_correlation = 0.87;
-  double noise_factor = 0;
+  double noise_factor = 1.5;
   double noise = 2.0;
 
   template <class Self, class Visitor>

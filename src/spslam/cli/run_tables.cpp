@@ -52,7 +52,7 @@ std::string frame_line(const FrameRecord& frame) {
   add(fixed_text(r.timestamp, 9));
   add(state_name(r.status));
   add(csv_text(r.reason));
-  for (const int count : {r.near, r.far, r.followed, r.with_disparity, r.on_trial, r.inliers})
+  for (const int count : {r.near, r.far, r.followed, r.with_disparity, r.on_trial, r.moving, r.inliers})
     add(std::to_string(count));
   add(csv_number(r.entropy, 4));
   add(csv_number(r.far_weight, 4));
@@ -112,7 +112,8 @@ double cpu_seconds() {
 
 std::string frames_csv(const RunRecord& record) {
   std::string text =
-      "frame,timestamp,state,reason,near,far,followed,with_disparity,on_trial,inliers,entropy,far_weight,"
+      "frame,timestamp,state,reason,near,far,followed,with_disparity,on_trial,moving,inliers,entropy,far_"
+      "weight,"
       "keyframe,keyframe_reason,sigma_translation,sigma_rotation,decode_ms";
   for (const Stage& stage : kStages) text += fmt::format(",{}_ms", stage.name);
   text += "\n";

@@ -6,6 +6,7 @@
 #include "spslam/alignment/patch_aligner.h"
 #include "spslam/alignment/row_search.h"
 #include "spslam/features/orb_options.h"
+#include "spslam/odometry/movers.h"
 #include "spslam/odometry/rig_monitor.h"
 #include "spslam/odometry/trial.h"
 #include "spslam/optimize/problem.h"
@@ -202,6 +203,7 @@ struct TrackerOptions {
   RecallOptions recall;
   FarOptions far;
   TrialOptions trial;
+  MoverOptions movers;
   SolverOptions motion;
   SolverOptions window{.iterations = 6};
   int window_frames = 10;
@@ -224,6 +226,7 @@ struct TrackerOptions {
     visit.group("recall", self.recall);
     visit.group("far", self.far);
     visit.group("trial", self.trial);
+    visit.group("movers", self.movers);
     visit.group("motion", self.motion);
     visit.group("window", self.window);
     visit(self.window_frames, {"window_frames", "", "frames solved together; 1 for one by one", 1, 50});

@@ -47,6 +47,7 @@ struct TrackResult {
   int near = 0, far = 0;   // found ones by region
   int with_disparity = 0;  // found ones whose disparity was measured
   int on_trial = 0;        // found ones that say nothing yet (trial.h)
+  int moving = 0;          // found ones that turned out to move by themselves (movers.h), and are let go
   int inliers = 0;         // found ones that agree with the pose
   KeyframeDecision keyframe;
   KeyframeId keyframe_id;  // valid if the frame became one

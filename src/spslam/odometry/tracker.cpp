@@ -95,6 +95,7 @@ bool Tracker::measure_pose(const Frame& frame, TrackResult& result, StageTimer& 
   motion_covariance_ = motion.covariance;
   map_.window.push_back({frame.id, frame.timestamp, motion.camera_from_world, {}, std::move(sightings)});
   if (options_.window_frames > 1) refine_window(map_, options_.window);
+  result.moving = let_movers_go();
   close_gap(frame.timestamp, map_.window.back().camera_from_world);
   motion_.add(frame.timestamp, map_.window.back().camera_from_world);
   status_ = TrackStatus::kTracking;

@@ -96,6 +96,7 @@ class Tracker {
   void settle(std::size_t frames_kept, TrackerOutput& out);
   KeyframeProposal propose(const WindowFrame& frame);
   void let_go();
+  int let_movers_go();
 
   TrackerOptions options_;
   FrontEnd front_end_;
@@ -104,7 +105,7 @@ class Tracker {
   KeyframePolicy policy_;
   MotionModel motion_;
   RigMonitor rig_monitor_;
-  int frames_since_rig_check_ = 0;
+  int frames_since_rig_check_ = 0, frames_since_movers_ = 0;
   ActiveMap map_;
   TrackStatus status_ = TrackStatus::kInitializing;
   Matrix6d motion_covariance_ =

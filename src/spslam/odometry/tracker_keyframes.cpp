@@ -72,6 +72,16 @@ void Tracker::let_go() {
   forget(map_, options_.follow.max_missed);
 }
 
+// Those that move by themselves go at once, and the window is solved without them.
+int Tracker::let_movers_go() {
+  if (!options_.movers.enabled || ++frames_since_movers_ < options_.movers.interval) return 0;
+  frames_since_movers_ = 0;
+  const std::vector<int> moving = find_movers(map_, options_.movers);
+  for (const int i : moving) trials_.refute(map_.rig, options_.follow.max_missed, map_.landmarks[i]);
+  if (!moving.empty()) refine_window(map_, options_.window);
+  return static_cast<int>(moving.size());
+}
+
 void Tracker::settle(std::size_t frames_kept, TrackerOutput& out) {
   while (!unsettled_.empty()) {
     const Unsettled& oldest = unsettled_.front();

@@ -45,6 +45,11 @@ void Trials::conclude(const StereoRig& rig, Verdict verdict, int max_missed, Act
   if (verdict == Verdict::kProven) active.on_trial = false;
 }
 
+void Trials::refute(const StereoRig& rig, int max_missed, ActiveLandmark& active) {
+  active.on_trial = true;
+  conclude(rig, Verdict::kRefuted, max_missed, active);
+}
+
 void Trials::judge(ActiveMap& map, int max_missed) {
   if (!options_.enabled || map.window.empty()) return;
   const WindowFrame& newest = map.window.back();

@@ -46,6 +46,8 @@ class Trials {
   // refuted while on trial are missed more often than that afterwards, so that they are let go. The others
   // that are still open go on trial, or cease to be, as their place deserves.
   void judge(ActiveMap& map, int max_missed);
+  // What else has been found out about a landmark: it is on trial and refuted, so let go.
+  void refute(const StereoRig& rig, int max_missed, ActiveLandmark& active);
 
  private:
   static constexpr int kColumns = 8, kRows = 6;

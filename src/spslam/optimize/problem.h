@@ -125,6 +125,7 @@ struct SolveSummary {
 // Residual (u, v, disparity minus measured, px) and its derivatives for one observation.
 struct Linearized {
   Eigen::Vector3d residual;
+  Eigen::Matrix3d by_point;                 // by the scaled point x in the camera, the inverse depth held
   Eigen::Matrix<double, 3, 6> by_relative;  // by a left perturbation of camera_from_host
   Eigen::Vector3d by_inverse_depth;
   bool in_front = false;  // false: the point is behind the camera, nothing else is set

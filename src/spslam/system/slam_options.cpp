@@ -23,6 +23,8 @@ SlamOptions feature_slam_options() {
   t.keyframe.max_frames = 20;
   t.window_frames = 1;
   t.trial.enabled = false;
+  t.movers.enabled = false;
+  t.alignment.noise_factor = 0;
   t.landmarks.count = 1500;
   t.landmarks.levels = t.orb.levels;
   t.motion.loss = Loss::kHuber;
