@@ -10,6 +10,7 @@
 #   SEEDS    seeds 1 to so many (5)
 #   FRAMES   pairs of each run (150); 0 for the whole way
 #   PRESETS  their names (baseline sp-slam)
+#   ALTER    options of all scenes that differ from their files', as `key=value` (air.visibility=80)
 #   CHANGES  options of all runs that differ from the presets', as `key=value`
 #   OUTPUT   folder for the runs (out/ablation); ablation.tsv in it has a line a run; data that are there already are used again
 #   KEEP     1 keeps what is rendered, which is removed after its use else
@@ -19,6 +20,7 @@ cd "$(dirname "$(realpath "$0")")/.."
 . scripts/measuring.sh
 read -r -a scenes <<<"${SCENES:-bank bridge_turn canal fog_traffic glare lake_loop open_water rain}"
 read -r -a presets <<<"${PRESETS:-baseline sp-slam}"
+read -r -a alter <<<"${ALTER:-}"
 read -r -a changes <<<"${CHANGES:-}"
 seeds=${SEEDS:-5}
 frames=${FRAMES:-150}
@@ -53,7 +55,7 @@ run_scene() {  # SCENE
     rendered=0
     [ -f "$data/poses.txt" ] || {
       rendered=1
-      "$program" simulate "$scene" --seed "$seed" ${length[@]+"${length[@]}"} --output "$data" --overwrite >&2
+      "$program" simulate "$scene" --seed "$seed" ${length[@]+"${length[@]}"} ${alter[@]+"${alter[@]/#/--set=}"} --output "$data" --overwrite >&2
     }
     for preset in "${presets[@]}"; do
       run=$output/$scene.$seed.$preset

@@ -51,6 +51,17 @@ LocalMapper make_mapper(int view_keyframes = 20) {
   return {kRig, OrbOptions{}, options};
 }
 
+TEST(LocalMapper, LandmarksThatMoveAreTakenOut) {
+  LocalMapper mapper = make_mapper();
+  mapper.insert(proposal(0));
+  KeyframeProposal second = proposal(1);
+  second.moving_landmarks = {{0}, {77}};  // one of the first keyframe's, and one that never came here
+  mapper.insert(second);
+  EXPECT_FALSE(mapper.map().find(LandmarkId{0}));
+  EXPECT_TRUE(mapper.map().find(LandmarkId{1}));
+  for (const Sighting& s : mapper.map().find(KeyframeId{0})->sightings) EXPECT_NE(s.landmark, LandmarkId{0});
+}
+
 TEST(LocalMapper, InsertPublishesTheNeighbourhood) {
   LocalMapper mapper = make_mapper();
   const LocalMapView first = mapper.insert(proposal(0)).view, second = mapper.insert(proposal(1)).view;

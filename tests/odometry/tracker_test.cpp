@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "odometry/plane_scene.h"
 
 namespace spslam {
@@ -83,6 +85,51 @@ TEST(Tracker, LandmarksOfWaterDoNotComeIntoTheMap) {
   const int trusted = landmarks_of_water(options);
   EXPECT_GT(trusted, 100);
   EXPECT_LT(found_out, trusted / 10) << found_out << " of " << trusted;
+}
+
+// Landmarks that were handed to the map and not taken back, by whether they are on a boat that crosses.
+struct HandedOver {
+  int boat = 0, rest = 0, moving = 0;
+  double error = 0;  // m, of the last pose
+};
+
+HandedOver passing_a_boat(bool find_movers) {
+  const cv::Rect place(90, 70, 110, 90);
+  constexpr int kFrames = 24;
+  const test::PlaneScene shore(11), boat(21, 3);
+  TrackerOptions options = small_options();
+  options.window_frames = 10;
+  options.movers.enabled = find_movers;
+  Tracker tracker(shore.rig(), options);
+  HandedOver out;
+  std::map<LandmarkId, bool> known;  // whether it is on the boat
+  for (int i = 0; i < kFrames; ++i) {
+    StereoFrame pair = shore.pair(0.1 * i, pose_at(i));
+    const SE3 from_boat = pose_at(i) * SE3{Eigen::Matrix3d::Identity(), {0.015 * i, 0.01 * i, 0}};
+    boat.render(from_boat)(place).copyTo(pair.left(place));
+    boat.render(from_boat, boat.rig().baseline)(place).copyTo(pair.right(place));
+    const TrackerOutput output = tracker.track(pair);
+    EXPECT_EQ(output.result.status, TrackStatus::kTracking);
+    out.moving += output.result.moving;
+    out.error = position_error(output.result, i);
+    for (const KeyframeProposal& proposal : output.proposals) {
+      for (const Landmark& l : proposal.new_landmarks)
+        known[l.id] = place.contains({static_cast<int>(l.pixel.x()), static_cast<int>(l.pixel.y())});
+      for (const LandmarkId id : proposal.moving_landmarks) known.erase(id);
+    }
+  }
+  for (const auto& [id, on_boat] : known) ++(on_boat ? out.boat : out.rest);
+  return out;
+}
+
+TEST(Tracker, LandmarksThatMoveAreLetGoAndTakenBackFromTheMap) {
+  const HandedOver all = passing_a_boat(false), standing = passing_a_boat(true);
+  EXPECT_EQ(all.moving, 0);
+  EXPECT_GT(all.boat, 20);
+  EXPECT_GT(standing.moving, 10);
+  EXPECT_LT(standing.boat, 0.7 * all.boat) << standing.boat << " of " << all.boat;
+  EXPECT_GT(standing.rest, 0.8 * all.rest);
+  EXPECT_LT(standing.error, 0.01);
 }
 
 TEST(Tracker, EveryFrameSettlesOnceAndInOrder) {

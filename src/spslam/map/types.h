@@ -78,6 +78,7 @@ struct KeyframeProposal {
   SE3 camera_from_previous;
   std::vector<Landmark> new_landmarks;
   std::vector<Landmark> known_landmarks;
+  std::vector<LandmarkId> moving_landmarks;  // that turned out to move by themselves since the one before
 };
 
 // What the mapper publishes for the tracker: the corrected neighbourhood of the newest keyframe. Immutable.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "spslam/map/types.h"
@@ -40,6 +41,7 @@ struct ActiveMap {
   std::map<KeyframeId, Keyframe> hosts;   // of the landmarks, and of the window's keyframes
   std::vector<ActiveLandmark> landmarks;  // ascending ids
   std::deque<WindowFrame> window;         // ascending time
+  std::set<LandmarkId> moving = {};       // found to move by themselves; the mapper has not been told yet
 
   // Index of a landmark, or -1.
   int index_of(LandmarkId id) const;

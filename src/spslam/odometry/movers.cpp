@@ -6,13 +6,16 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 namespace spslam {
 namespace {
 
-constexpr double kHostSigma = 0.1;  // px; in its host a patch is where it is by definition
-constexpr double kRidge = 1e-9;     // of the mean diagonal: what is not observed at all stays solvable
-constexpr int kRounds = 2;          // Gauss-Newton steps of the standing point
+constexpr double kHostSigma = 0.1;   // px; in its host a patch is where it is by definition
+constexpr double kRidge = 1e-9;      // of the mean diagonal: what is not observed at all stays solvable
+constexpr int kMaxRounds = 8;        // Gauss-Newton steps of the standing point
+constexpr double kConverged = 1e-2;  // chi-square; a step that promises less is the last
 
 // A landmark's sightings in the window, oldest first, each with its frame.
 struct TrackedSighting {
@@ -76,30 +79,26 @@ Eigen::VectorXd step(const TrackEquations& e, int n) {
   return information.ldlt().solve(e.vector.head(n));
 }
 
+// By the first disparity that was measured; nothing without two of them.
 std::optional<Eigen::Vector3d> first_guess(const ActiveMap& map, const Track& track) {
-  double sum = 0;
-  int measured = 0;
-  for (const auto& [frame, sighting] : track) {
-    if (!(sighting->inverse_sigma.z() > 0)) continue;
-    const Eigen::Vector3d& at = sighting->measured;
-    sum += at.z() - map.disparity_offset.at(map.rig, at.x(), at.y());
-    ++measured;
-  }
-  if (measured < 2) return std::nullopt;
-  const Eigen::Vector3d& at = track.front().sighting->measured;
-  Eigen::Vector3d point = map.rig.bearing(at.x(), at.y());
-  point.z() = sum / measured / map.rig.disparity_per_inverse_depth();
+  const auto has_disparity = [](const TrackedSighting& t) { return t.sighting->inverse_sigma.z() > 0; };
+  if (std::count_if(track.begin(), track.end(), has_disparity) < 2) return std::nullopt;
+  const Eigen::Vector3d& z = std::find_if(track.begin(), track.end(), has_disparity)->sighting->measured;
+  const Eigen::Vector3d& first = track.front().sighting->measured;
+  Eigen::Vector3d point = map.rig.bearing(first.x(), first.y());
+  point.z() =
+      (z.z() - map.disparity_offset.at(map.rig, z.x(), z.y())) / map.rig.disparity_per_inverse_depth();
   return point;
 }
 
-// By which alignment is worse than its noise says: patches warp as they come nearer and pass by.
-double warp_variance(const ActiveMap& map, const Track& track, double warp) {
-  const Eigen::Vector3d& from = track.front().sighting->measured;
-  const Sighting& last = *track.back().sighting;
-  const Eigen::Vector3d turned =
-      motion_since_first(track, *track.back().frame).rotation * map.rig.bearing(from.x(), from.y());
-  const double moved = (last.measured.head<2>() - map.rig.project(turned)).norm();
-  const double error = warp * moved * last.inverse_sigma.x();
+// By which alignment is worse than its noise says: patches warp as they come nearer and pass by. The way that
+// parallax moves the standing point is where it ends less where a point at infinity would.
+double warp_variance(const ActiveMap& map, const Track& track, const Eigen::Vector3d& point, double warp) {
+  const SE3 motion = motion_since_first(track, *track.back().frame);
+  const Eigen::Vector3d turned = motion.rotation * Eigen::Vector3d(point.x(), point.y(), 1);
+  const double moved =
+      (map.rig.project(turned + point.z() * motion.translation) - map.rig.project(turned)).norm();
+  const double error = warp * moved * track.back().sighting->inverse_sigma.x();
   return 1 + error * error;
 }
 
@@ -107,13 +106,17 @@ double warp_variance(const ActiveMap& map, const Track& track, double warp) {
 
 std::optional<double> gain_of_moving(const ActiveMap& map, LandmarkId landmark, const MoverOptions& options) {
   const Track track = track_of(map, landmark);
-  if (static_cast<int>(track.size()) < options.min_sightings || track.back().frame != &map.window.back())
+  if (track.empty() || static_cast<int>(track.size()) < options.min_sightings ||
+      track.back().frame != &map.window.back())
     return std::nullopt;
   std::optional<Eigen::Vector3d> point = first_guess(map, track);
   if (!point) return std::nullopt;
   std::optional<TrackEquations> e = equations(map, track, *point);
-  for (int round = 0; round < kRounds && e; ++round) {
-    *point += step(*e, 3);
+  double promised = 2 * kConverged;
+  for (int round = 0; round < kMaxRounds && e && promised > kConverged; ++round) {
+    const Eigen::Vector3d change = step(*e, 3);
+    promised = e->vector.head<3>().dot(change);
+    *point += change;
     e = equations(map, track, *point);
   }
   if (!e || e->components <= 6) return std::nullopt;
@@ -123,7 +126,7 @@ std::optional<double> gain_of_moving(const ActiveMap& map, LandmarkId landmark, 
   // Patches that do not even follow a velocity to within their noise weigh for what they are.
   const double variance = std::max(1.0, moving / (e->components - 6));
   if (!std::isfinite(gain)) return std::nullopt;
-  return gain / (variance * warp_variance(map, track, options.warp));
+  return gain / (variance * warp_variance(map, track, *point, options.warp));
 }
 
 std::vector<int> find_movers(const ActiveMap& map, const MoverOptions& options) {

@@ -4,7 +4,7 @@
 // next its points agree with the shore to within their noise; over a window they do not. So each landmark's
 // track is fitted twice, as a point that stands still and as one with a constant velocity of its own, and
 // where the second explains it better by more than chance it moves. (A likelihood ratio test of two nested
-// models; the poses are taken as the window has them.)
+// models.) The poses are taken as the window has them: most of what it was solved from must stand still.
 #pragma once
 
 #include <optional>
@@ -25,8 +25,10 @@ struct MoverOptions {
   static void fields(Self& self, Visitor& visit) {
     visit(self.enabled, {"enabled", "", "let landmarks go that move by themselves, as those of boats do"});
     visit(self.interval, {"interval", "", "frames from one look to the next", 1, 1000});
-    visit(self.min_sightings,
-          {"min_sightings", "", "in the window without which nothing is said of a landmark", 4, 50});
+    visit(self.min_sightings, {"min_sightings", "",
+                               "in the window without which nothing is said of a landmark; more than "
+                               "window_frames + 1 switches it off",
+                               4, 50});
     visit(self.max_gain,
           {"max_gain", "",
            "chi-square that a velocity of its own may take off a standing landmark's sightings "

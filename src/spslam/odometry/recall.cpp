@@ -55,7 +55,9 @@ std::vector<Landmark> landmarks_in_sight(const ActiveMap& map, const LocalMapVie
     if (const auto at = predict(map, active.landmark, camera_from_world)) occupancy.take(at->position);
   std::vector<Landmark> candidates;
   for (const Landmark& landmark : view.landmarks)
-    if (map.index_of(landmark.id) < 0 && local.hosts.contains(landmark.host)) candidates.push_back(landmark);
+    if (map.index_of(landmark.id) < 0 && !map.moving.contains(landmark.id) &&
+        local.hosts.contains(landmark.host))
+      candidates.push_back(landmark);
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Landmark& a, const Landmark& b) { return a.information > b.information; });
   std::vector<Landmark> out;

@@ -72,14 +72,20 @@ void Tracker::let_go() {
   forget(map_, options_.follow.max_missed);
 }
 
-// Those that move by themselves go at once, and the window is solved without them.
+// Those that move by themselves go at once, with all that was seen of them, and the window is solved without.
 int Tracker::let_movers_go() {
   if (!options_.movers.enabled || ++frames_since_movers_ < options_.movers.interval) return 0;
   frames_since_movers_ = 0;
-  const std::vector<int> moving = find_movers(map_, options_.movers);
-  for (const int i : moving) trials_.refute(map_.rig, options_.follow.max_missed, map_.landmarks[i]);
-  if (!moving.empty()) refine_window(map_, options_.window);
-  return static_cast<int>(moving.size());
+  const std::vector<int> movers = find_movers(map_, options_.movers);
+  for (const int i : movers) {
+    trials_.refute(map_.rig, options_.follow.max_missed, map_.landmarks[i]);
+    map_.moving.insert(map_.landmarks[i].landmark.id);
+  }
+  if (movers.empty()) return 0;
+  for (WindowFrame& frame : map_.window)
+    std::erase_if(frame.sightings, [&](const Sighting& s) { return map_.moving.contains(s.landmark); });
+  refine_window(map_, options_.window);
+  return static_cast<int>(movers.size());
 }
 
 void Tracker::settle(std::size_t frames_kept, TrackerOutput& out) {
@@ -117,6 +123,8 @@ KeyframeProposal Tracker::propose(const WindowFrame& frame) {
     const Landmark& landmark = i >= 0 ? map_.landmarks[i].landmark : retired->second;
     (landmark.host == frame.keyframe ? proposal.new_landmarks : proposal.known_landmarks).push_back(landmark);
   }
+  proposal.moving_landmarks.assign(map_.moving.begin(), map_.moving.end());
+  map_.moving.clear();
   proposal.previous = settled_reference_;
   proposal.camera_from_previous = frame.camera_from_world * handed_over_[settled_reference_].inverse();
   std::erase_if(retired_, [&](const auto& entry) { return entry.second.host <= frame.keyframe; });
