@@ -10,7 +10,8 @@
 #   SEEDS    seeds 1 to so many (5)
 #   FRAMES   pairs of each run (150); 0 for the whole way
 #   PRESETS  their names (baseline sp-slam)
-#   ALTER    options of all scenes that differ from their files', as `key=value` (air.visibility=80)
+#   ALTER    options of all scenes that differ from their files', as `key=value` (air.visibility=80); data in OUTPUT from before are taken
+#            as they are, so each ALTER needs an OUTPUT of its own
 #   CHANGES  options of all runs that differ from the presets', as `key=value`
 #   OUTPUT   folder for the runs (out/ablation); ablation.tsv in it has a line a run; data that are there already are used again
 #   KEEP     1 keeps what is rendered, which is removed after its use else

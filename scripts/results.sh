@@ -133,8 +133,8 @@ ablation() {
   echo
   ablation_row "nothing"
   local change
-  for change in segment=false far.enabled=false trial.enabled=false movers.enabled=false alignment.noise_factor=0 rig.estimate=false window_frames=1 window_frames=5 keyframe.entropy=false \
-    recall.enabled=false follow.soft_sigma=0.7 landmarks.levels=8 motion.loss=pseudo-huber motion.loss=huber window.loss=pseudo-huber stereo_by_descriptor=true; do
+  for change in segment=false far.enabled=false trial.enabled=false movers.enabled=false alignment.noise_factor=0 rig.estimate=false \
+    window_frames=1 window_frames=5 keyframe.entropy=false recall.enabled=false follow.soft_sigma=0.7 landmarks.levels=8 motion.loss=pseudo-huber motion.loss=huber window.loss=pseudo-huber stereo_by_descriptor=true; do
     ablation_row "\`tracker.$change\`" "tracker.$change"
   done
   for change in retriangulation.enabled=false adjustment.enabled=false adjustment.solver.loss=pseudo-huber \

@@ -112,9 +112,8 @@ double cpu_seconds() {
 
 std::string frames_csv(const RunRecord& record) {
   std::string text =
-      "frame,timestamp,state,reason,near,far,followed,with_disparity,on_trial,moving,inliers,entropy,far_"
-      "weight,"
-      "keyframe,keyframe_reason,sigma_translation,sigma_rotation,decode_ms";
+      "frame,timestamp,state,reason,near,far,followed,with_disparity,on_trial,moving,inliers,entropy,"
+      "far_weight,keyframe,keyframe_reason,sigma_translation,sigma_rotation,decode_ms";
   for (const Stage& stage : kStages) text += fmt::format(",{}_ms", stage.name);
   text += "\n";
   for (const FrameRecord& frame : record.frames) text += frame_line(frame);

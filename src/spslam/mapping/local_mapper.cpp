@@ -49,7 +49,7 @@ void LocalMapper::add(KeyframeProposal proposal) {
   for (Landmark& landmark : proposal.new_landmarks) map_.add(std::move(landmark));
   for (const Landmark& landmark : proposal.known_landmarks) map_.update(landmark);
   for (const LandmarkId moving : proposal.moving_landmarks)
-    if (map_.find(moving)) map_.erase(moving);
+    if (const LandmarkId id = map_.resolve(moving); map_.find(id)) map_.erase(id);
   // The previous keyframe may have been corrected since the tracker measured from it.
   if (const auto previous = map_.camera_from_world(proposal.previous))
     proposal.keyframe.camera_from_world = (proposal.camera_from_previous * *previous).normalized();
