@@ -130,7 +130,7 @@ std::string error_charts(const Evaluation& e) {
          section("Position error over time", error_chart("ATE", "m", times, e.ate.errors)) +
          section("Relative error per second",
                  error_chart("RPE, translation", "m/s", rpe.timestamps, rpe.translation_errors)) +
-         section("Relative rotation error per second",
+         section("Rotation error per second",
                  error_chart("RPE, rotation", "deg/s", rpe.timestamps, rpe.rotation_errors)) +
          "</div>\n";
 }
