@@ -39,8 +39,9 @@ void add_keyframe(Map& map, int i, const SE3& pose, const std::vector<WorldPoint
 }
 
 // All attempts along a way with odometry that does not err; z of each keyframe, heading along z.
+// As long as corrections fail, none is closed.
 std::vector<LoopAttempt> attempts(const std::vector<double>& way, const DetectionOptions& options,
-                                  const SE3& error_of_odometry = {}) {
+                                  const SE3& error_of_odometry = {}, bool corrections_fail = false) {
   const auto world = make_world({.points = 900, .nearest = 6});
   const Vocabulary vocabulary = built_in_vocabulary();
   LoopCloser closer(boat_rig(), options, {}, vocabulary);
@@ -51,6 +52,7 @@ std::vector<LoopAttempt> attempts(const std::vector<double>& way, const Detectio
     add_keyframe(map, static_cast<int>(i), true_pose, world);
     if (i >= way.size() / 2) map.set_pose(id_of(static_cast<int>(i)), error_of_odometry * true_pose);
     out.push_back(closer.detect(map, id_of(static_cast<int>(i))));
+    if (out.back().closure && !corrections_fail) closer.closed(*out.back().closure);
   }
   return out;
 }
@@ -100,6 +102,13 @@ TEST(LoopCloser, GoingOnIsNoLoop) {
   DetectionOptions any;
   any.min_detour = 1;
   EXPECT_GT(closed(attempts(straight_on(0.1), any)), 0);
+}
+
+TEST(LoopCloser, AfterALoopItPausesUnlessTheCorrectionFailed) {
+  DetectionOptions patient;
+  patient.pause = 1000;
+  EXPECT_EQ(closed(attempts(there_and_back(0.3), patient)), 1);
+  EXPECT_GT(closed(attempts(there_and_back(0.3), patient, {}, true)), 1);
 }
 
 TEST(LoopCloser, ALoopThatOdometryCannotHaveMissedByIsImplausible) {

@@ -151,6 +151,35 @@ TEST(Map, ErasedKeyframeLeavesItsLandmarksToTheNextThatSawThem) {
   EXPECT_FALSE(map.erase(KeyframeId{0}));  // the root of the tree stays
 }
 
+// A new host one metre nearer: 10 m become 9, and 8 m become 7, which is what stereo said.
+TEST(Map, WhatStereoSaidMovesToTheNextHost) {
+  Map map;
+  Landmark point = landmark(0, 0.1);
+  point.host = {0};
+  point.information = 1000;
+  point.stereo_inverse_depth = 0.125, point.stereo_information = 500;
+  map.add(point);
+  for (const std::int64_t id : {0, 1, 2}) {
+    Keyframe k = keyframe(id);
+    k.camera_from_world.translation.z() = -static_cast<double>(id);
+    k.sightings = {{{0}, {1, 2, 3}, {4, 4, 5}}};
+    map.add(k);
+  }
+  ASSERT_FALSE(map.erase(KeyframeId{0}));  // the root
+  point.id = {1}, point.host = {1};
+  map.add(point);
+  map.set_sighting({1}, {{1}, {1, 2, 3}, {4, 4, 5}});
+  map.set_sighting({2}, {{1}, {1, 2, 3}, {4, 4, 5}});
+  ASSERT_TRUE(map.erase(KeyframeId{1}));
+  const Landmark& moved = *map.find(LandmarkId{1});
+  EXPECT_EQ(moved.host, KeyframeId{2});
+  EXPECT_NEAR(moved.inverse_depth, 1 / 9.0, 1e-12);
+  EXPECT_NEAR(moved.stereo_inverse_depth, 1 / 7.0, 1e-12);
+  // By w' = w / (1 - w): its derivative is (1 - w)^-2.
+  EXPECT_NEAR(moved.information, 1000 * std::pow(0.9, 4), 1e-9);
+  EXPECT_NEAR(moved.stereo_information, 500 * std::pow(0.875, 4), 1e-9);
+}
+
 TEST(Map, ErasedLandmarkIsSeenByNobody) {
   Map map = chain();
   map.erase(LandmarkId{3});

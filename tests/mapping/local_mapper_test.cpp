@@ -62,6 +62,20 @@ TEST(LocalMapper, LandmarksThatMoveAreTakenOut) {
   for (const Sighting& s : mapper.map().find(KeyframeId{0})->sightings) EXPECT_NE(s.landmark, LandmarkId{0});
 }
 
+// Before anything was solved nobody knows which sightings are wrong.
+TEST(LocalMapper, AnAdjustmentThatWasStoppedTakesNothingOut) {
+  KeyframeProposal second = proposal(1);
+  second.keyframe.sightings.back().measured = {150, 10, 0};
+  second.keyframe.sightings.back().inverse_sigma = {5, 5, 0};
+  const LandmarkId known = second.keyframe.sightings.back().landmark;
+  LocalMapper mapper = make_mapper();
+  mapper.insert(proposal(0));
+  const MappingResult result = mapper.insert(second, [] { return true; });
+  EXPECT_EQ(result.adjustment.status, SolveStatus::kStopped);
+  EXPECT_EQ(result.outliers, 0);
+  EXPECT_TRUE(find_sighting(*mapper.map().find(KeyframeId{1}), known));
+}
+
 TEST(LocalMapper, InsertPublishesTheNeighbourhood) {
   LocalMapper mapper = make_mapper();
   const LocalMapView first = mapper.insert(proposal(0)).view, second = mapper.insert(proposal(1)).view;

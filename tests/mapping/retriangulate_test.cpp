@@ -71,6 +71,19 @@ TEST(Retriangulate, LargeParallaxReplacesTheDepth) {
   EXPECT_EQ(right, changed);
 }
 
+// What the tracker saw in all its frames may be known better than keyframes can tell.
+TEST(Retriangulate, AWellKnownDepthStaysWhateverTheParallax) {
+  test::MapWorld world = test::make_map_world(exact());
+  const std::map<LandmarkId, Landmark> truth = world.map.landmarks();
+  for (const auto& [id, landmark] : truth) world.map.set_estimate(id, landmark.inverse_depth + 1e-5, 1e9);
+  EXPECT_EQ(retriangulate(world.map, world.truth.rig, {5}, {}), 0);
+  for (const auto& [id, landmark] : truth) {
+    world.map.set_estimate(id, landmark.inverse_depth + 1e-5, 1e-3);
+    EXPECT_NEAR(world.map.find(id)->inverse_depth, landmark.inverse_depth + 1e-5, 1e-12);
+  }
+  EXPECT_GT(retriangulate(world.map, world.truth.rig, {5}, {}), 50);
+}
+
 // A camera that hardly moves sees less parallax than its own two eyes: the old values stay.
 TEST(Retriangulate, SmallParallaxKeepsTheDepth) {
   SyntheticOptions options = exact();

@@ -132,6 +132,24 @@ TEST(Tracker, LandmarksThatMoveAreLetGoAndTakenBackFromTheMap) {
   EXPECT_LT(standing.error, 0.01);
 }
 
+// Culling may give a landmark that is still followed another host: what the map says of it then holds there.
+TEST(Tracker, DepthsInAnotherHostAreNotTakenOver) {
+  const test::PlaneScene scene(11);
+  Tracker tracker(scene.rig(), small_options());
+  LocalMapView view;
+  for (int i = 0; i < 20; ++i) {
+    if (!view.keyframes.empty()) tracker.adopt(view);
+    const TrackerOutput output = tracker.track(scene.pair(0.1 * i, pose_at(i)));
+    ASSERT_EQ(output.result.status, TrackStatus::kTracking);
+    EXPECT_LT(position_error(output.result, i), 0.01);
+    for (const KeyframeProposal& proposal : output.proposals) {
+      view = {view.revision + 1, true, {proposal.keyframe}, proposal.new_landmarks};
+      for (Landmark& landmark : view.landmarks) landmark.host = {77}, landmark.inverse_depth *= 3;
+    }
+  }
+  EXPECT_GT(view.revision, 0);
+}
+
 TEST(Tracker, EveryFrameSettlesOnceAndInOrder) {
   const test::PlaneScene scene(12);
   Tracker tracker(scene.rig(), small_options());

@@ -188,6 +188,32 @@ TEST(SolveDegenerate, NoObservations) {
   EXPECT_EQ(problem.poses[1].camera_from_world.matrix3x4(), before.poses[1].camera_from_world.matrix3x4());
 }
 
+TEST(SolveDegenerate, APoseThatNothingSeesDoesNotStopTheOthers) {
+  const Problem truth = make_synthetic_world({.hosts = 2, .noise = false}).truth;
+  Problem problem = truth;
+  disturb(problem, {});
+  const SE3 unseen{so3_exp({0.1, 0, 0}), {1, 2, 3}};
+  problem.poses.push_back({unseen, false});
+  const SolveSummary summary = solve(problem, thorough());
+  EXPECT_EQ(summary.status, SolveStatus::kConverged);
+  EXPECT_LT(summary.final_cost, 1e-10);
+  EXPECT_TRUE(problem.poses.back().camera_from_world.matrix3x4().isApprox(unseen.matrix3x4(), 1e-12));
+  problem.poses.pop_back();
+  EXPECT_LT(largest_translation_error(problem, truth), 1e-6);
+}
+
+// A camera that has been put beyond what it saw has not explained it.
+TEST(SolveDegenerate, PointsBehindTheCameraCostMoreThanWrongOnes) {
+  const Problem truth = make_synthetic_world({.cameras = 2, .far_share = 0}).truth;
+  Problem wrong = truth, beyond = truth;
+  disturb(wrong, {});
+  beyond.poses[1].camera_from_world =
+      SE3{so3_exp({0, M_PI, 0}), {0, 0, 0}} * truth.poses[1].camera_from_world;
+  const SolverOptions options;
+  EXPECT_LT(total_cost(truth, options), total_cost(wrong, options));
+  EXPECT_LT(total_cost(wrong, options), total_cost(beyond, options));
+}
+
 TEST(SolveDegenerate, AllBehindTheCamera) {
   Problem problem = make_synthetic_world({.cameras = 2, .far_share = 0}).truth;
   problem.poses[1].camera_from_world =

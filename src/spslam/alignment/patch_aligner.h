@@ -58,7 +58,7 @@ struct Alignment {
   bool ok() const { return status == AlignmentStatus::kOk; }
 };
 
-// Aligns the patch around `point` of `from` with `to`, from the coarsest useful level down to `last_level`.
+// Aligns the patch around `point` of `from` with `to`, from the coarsest useful level down to full size.
 // point, start: px of the full-size images. to_from_warp: what the predicted motion does to small offsets
 // around the point (identity where only the position changes). first_level: the level to start on; -1 for the
 // coarsest.

@@ -21,9 +21,11 @@ void extend(MapCorrection& correction, const Map& map) {
 void apply(const MapCorrection& correction, Map& map) {
   for (const auto& [id, camera_from_world] : correction.camera_from_world)
     if (camera_from_world.is_finite()) map.set_pose(id, camera_from_world);
-  for (const auto& [id, inverse_depth] : correction.inverse_depths)
-    if (const Landmark* landmark = map.find(id); landmark && std::isfinite(inverse_depth))
-      map.set_estimate(id, inverse_depth, landmark->information);
+  for (const CorrectedDepth& depth : correction.inverse_depths) {
+    const Landmark* landmark = map.find(depth.landmark);
+    if (landmark && landmark->host == depth.host && std::isfinite(depth.inverse_depth))
+      map.set_estimate(depth.landmark, depth.inverse_depth, landmark->information);
+  }
   for (const auto& [kept, gone] : correction.fused) map.fuse(map.resolve(kept), map.resolve(gone));
   for (auto [id, sighting] : correction.sightings) {
     sighting.landmark = map.resolve(sighting.landmark);

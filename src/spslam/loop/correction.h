@@ -26,9 +26,16 @@ struct LoopClosure {
   std::vector<Pair> pairs;
 };
 
+// Holds in the camera of that host: culling may give the landmark another one while the correction is made.
+struct CorrectedDepth {
+  LandmarkId landmark;
+  KeyframeId host;
+  double inverse_depth = 0;  // 1/m
+};
+
 struct MapCorrection {
   std::vector<std::pair<KeyframeId, SE3>> camera_from_world;  // ascending
-  std::vector<std::pair<LandmarkId, double>> inverse_depths;  // ascending
+  std::vector<CorrectedDepth> inverse_depths;                 // ascending
   std::vector<std::pair<LandmarkId, LandmarkId>> fused;       // kept, gone
   std::vector<std::pair<KeyframeId, Sighting>> sightings;     // new ones
   std::optional<LoopEdge> edge;

@@ -123,8 +123,8 @@ Matrix6d odometry_covariance(const Map& map, const StereoRig& rig, const Keyfram
   return covariance_of(covariance, turn * M_PI / 180);
 }
 
-EssentialGraph copy_essential_graph(const Map& map, const StereoRig& rig, const LoopClosure& closure,
-                                    const EssentialGraphOptions& options) {
+EssentialGraph essential_graph(const Map& map, const StereoRig& rig, const LoopClosure& closure,
+                               const EssentialGraphOptions& options) {
   GraphBuilder builder(map, rig, options);
   builder.add_odometry();
   builder.add_old_loops();

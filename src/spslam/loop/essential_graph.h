@@ -51,10 +51,10 @@ struct EssentialGraph {
   LoopEdge edge;                      // the new one
 };
 
-// A copy of all that is needed, to be solved without the map. Throws std::invalid_argument if an end of the
-// loop is not in the map.
-EssentialGraph copy_essential_graph(const Map& map, const StereoRig& rig, const LoopClosure& closure,
-                                    const EssentialGraphOptions& options);
+// All that is needed, to be solved without the map. It takes seconds for thousands of keyframes. Throws
+// std::invalid_argument if an end of the loop is not in the map.
+EssentialGraph essential_graph(const Map& map, const StereoRig& rig, const LoopClosure& closure,
+                               const EssentialGraphOptions& options);
 
 // New poses of all its keyframes and the edge; empty if it could not be solved or was stopped.
 MapCorrection solve_essential_graph(EssentialGraph graph, const EssentialGraphOptions& options,

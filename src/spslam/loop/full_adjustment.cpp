@@ -24,8 +24,11 @@ MapCorrection solve_full_problem(AdjustmentProblem problem, const FullAdjustment
   MapCorrection out;
   for (std::size_t i = 0; i < problem.keyframes.size(); ++i)
     out.camera_from_world.emplace_back(problem.keyframes[i], problem.problem.poses[i].camera_from_world);
-  for (std::size_t i = 0; i < problem.landmarks.size(); ++i)
-    out.inverse_depths.emplace_back(problem.landmarks[i], problem.problem.landmarks[i].inverse_depth);
+  for (std::size_t i = 0; i < problem.landmarks.size(); ++i) {
+    const LandmarkVariable& solved = problem.problem.landmarks[i];
+    out.inverse_depths.push_back(
+        {problem.landmarks[i], problem.keyframes[solved.host], solved.inverse_depth});
+  }
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include "spslam/loop/loop_closer.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace spslam {
@@ -107,12 +108,13 @@ LoopAttempt LoopCloser::detect(const Map& map, KeyframeId newest) {
     attempt.candidates.push_back(std::move(candidate));
     if (attempt.closure) break;
   }
-  if (attempt.closure) {
-    last_closed_ = newest;
-    join(newest, attempt.closure->edge.older);
-    trails_.clear();
-  }
   return attempt;
+}
+
+void LoopCloser::closed(const LoopClosure& closure) {
+  last_closed_ = closure.edge.newer;
+  join(closure.edge.newer, closure.edge.older);
+  trails_.clear();
 }
 
 // What is connected with the keyframe already, or too young.
@@ -120,8 +122,9 @@ std::set<KeyframeId> LoopCloser::excluded(const Map& map, KeyframeId newest) con
   std::set<KeyframeId> out = {newest};
   for (const Covisible& other : map.covisible(newest)) out.insert(other.id);
   int young = 0;
-  for (auto it = map.keyframes().rbegin(); it != map.keyframes().rend() && young < options_.min_gap;
-       ++it, ++young)
+  const auto& keyframes = map.keyframes();
+  for (auto it = std::make_reverse_iterator(keyframes.upper_bound(newest));
+       it != keyframes.rend() && young < options_.min_gap; ++it, ++young)
     if (connected(it->first, newest)) out.insert(it->first);
   return out;
 }

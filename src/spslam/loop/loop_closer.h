@@ -95,6 +95,9 @@ class LoopCloser {
   // Looks for a loop that ends in this keyframe and adds it to the index; keyframes in ascending order, each
   // once. The same for the same calls.
   LoopAttempt detect(const Map& map, KeyframeId newest);
+  // The correction for a loop that detect() found is in the map: its ends are connected, and the next loops
+  // wait (pause).
+  void closed(const LoopClosure& closure);
   // Only adds it, as for the keyframes of a map that was loaded.
   void add(const Map& map, KeyframeId id);
   void erase(KeyframeId id) { index_.erase(id); }

@@ -139,6 +139,7 @@ bool Map::move_to_next_host(const Landmark& landmark, KeyframeId from) {
     const Sighting& sighting = *find_sighting(host, landmark.id);
     const SE3 motion = host.camera_from_world * old_host.camera_from_world.inverse();
     const MovedPoint point = move_point(motion, landmark.bearing, landmark.inverse_depth);
+    const MovedPoint stereo = move_point(motion, landmark.bearing, landmark.stereo_inverse_depth);
     if (!(point.depth_ratio > 1e-3) || sighting.inverse_sigma.x() <= 0) continue;
     Landmark& moved = landmarks_.at(landmark.id);
     moved.host = id;
@@ -146,6 +147,8 @@ bool Map::move_to_next_host(const Landmark& landmark, KeyframeId from) {
     moved.bearing = point.bearing;
     moved.inverse_depth = point.inverse_depth;
     moved.information *= point.information_gain;
+    moved.stereo_inverse_depth = stereo.inverse_depth;
+    moved.stereo_information *= stereo.depth_ratio > 1e-3 ? stereo.information_gain : 0;
     return true;
   }
   return false;

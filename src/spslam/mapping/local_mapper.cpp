@@ -63,6 +63,7 @@ void LocalMapper::adjust(const std::function<bool()>& stop, MappingResult& resul
   result.adjustment = solve(local.problem, options_.adjustment.solver, false, stop);
   if (result.adjustment.status == SolveStatus::kFailed) return;
   write_back(local, map_);
+  if (result.adjustment.status == SolveStatus::kStopped) return;  // nobody knows yet who is wrong
   result.outliers = erase_outliers(local, options_.adjustment.outlier_sigmas, map_);
 }
 

@@ -40,17 +40,20 @@ double stereo_parallax(const StereoRig& rig, double inverse_depth) {
   return rig.baseline * std::max(0.0, inverse_depth);
 }
 
-bool needs_update(const Map& map, const StereoRig& rig, const Landmark& landmark, const Keyframe& keyframe,
-                  const Sighting& sighting, double anomalous_sigmas) {
+enum class Depth { kGood, kImprovable, kAnomalous };
+
+Depth judge(const Map& map, const StereoRig& rig, const Landmark& landmark, const Keyframe& keyframe,
+            const Sighting& sighting, double anomalous_sigmas) {
   const SE3 motion = keyframe.camera_from_world * map.find(landmark.host)->camera_from_world.inverse();
   const Eigen::Vector3d from_host = motion.rotation * landmark.bearing;
   const Eigen::Vector3d from_here = rig.bearing(sighting.measured.x(), sighting.measured.y());
   const double angle = std::atan2(from_host.cross(from_here).norm(), from_host.dot(from_here));
   const Linearized at = linearize(rig, motion, landmark.bearing, landmark.inverse_depth, sighting.measured);
-  if (!at.in_front) return true;
+  if (!at.in_front || std::abs(at.residual.z()) * sighting.inverse_sigma.z() > anomalous_sigmas)
+    return Depth::kAnomalous;
   const double here = landmark.inverse_depth / (from_host + landmark.inverse_depth * motion.translation).z();
-  if (angle > std::max(stereo_parallax(rig, landmark.inverse_depth), stereo_parallax(rig, here))) return true;
-  return std::abs(at.residual.z()) * sighting.inverse_sigma.z() > anomalous_sigmas;
+  const double stereo = std::max(stereo_parallax(rig, landmark.inverse_depth), stereo_parallax(rig, here));
+  return angle > stereo ? Depth::kImprovable : Depth::kGood;
 }
 
 }  // namespace
@@ -74,10 +77,13 @@ int retriangulate(Map& map, const StereoRig& rig, KeyframeId id, const Retriangu
   for (const Sighting& sighting : keyframe->sightings) {
     const Landmark& landmark = *map.find(sighting.landmark);
     if (landmark.host == id || !map.find(landmark.host)) continue;
-    if (!needs_update(map, rig, landmark, *keyframe, sighting, options.anomalous_sigmas)) continue;
+    const Depth depth = judge(map, rig, landmark, *keyframe, sighting, options.anomalous_sigmas);
+    if (depth == Depth::kGood) continue;
     const auto found = triangulate(map, rig, landmark);
     if (!found) continue;
-    map.set_estimate(landmark.id, found->inverse_depth, std::max(found->information, landmark.information));
+    // Keyframes alone seldom know better than all the frames that the tracker saw it in.
+    if (depth == Depth::kImprovable && found->information <= landmark.information) continue;
+    map.set_estimate(landmark.id, found->inverse_depth, found->information);
     ++changed;
   }
   return changed;

@@ -23,9 +23,9 @@ class FrontEnd {
   // The pair must be usable. Both eyes are worked on in parallel.
   Frame process(const StereoFrame& pair, FrameId id);
 
-  // Corners of the left image of the frame processed last, apart from `occupied` places, with descriptors.
   // ORB features of all levels of the left image processed last.
   Features all_features() { return left_.extract(image_); }
+  // Corners of the left image of the frame processed last, apart from `occupied` places, with descriptors.
   Features new_corners(std::span<const cv::Point2f> occupied, int count);
 
  private:

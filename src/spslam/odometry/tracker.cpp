@@ -16,7 +16,7 @@ constexpr int kPreciseTries = 3;       // after which a place that does not tell
 // Indices into map.landmarks, spread evenly over all of them: every n-th first, then the others.
 std::vector<int> scouts_first(std::size_t count, std::size_t scouts) {
   std::vector<int> order;
-  const std::size_t stride = scouts == 0 ? count + 1 : std::max<std::size_t>(1, count / scouts);
+  const std::size_t stride = scouts == 0 ? count + 1 : (count + scouts - 1) / scouts;
   for (std::size_t i = 0; i < count; i += stride) order.push_back(static_cast<int>(i));
   for (std::size_t i = 0; i < count; ++i)
     if (i % stride != 0) order.push_back(static_cast<int>(i));
@@ -157,10 +157,11 @@ bool Tracker::is_sound(const MotionEstimate& motion, const std::vector<Sighting>
 std::optional<UncertainPose> Tracker::starting_pose(const Frame& frame, TrackResult& result) {
   const bool was_lost = status_ == TrackStatus::kLost;
   if (!was_lost && !must_localize_) return UncertainPose{{}, kCertain * Matrix6d::Identity()};
-  UncertainPose reckoned;
-  if (was_lost)
-    reckoned = {motion_.predict(frame.timestamp),
-                motion_covariance_ + coasting_covariance(frame.timestamp - motion_.last_timestamp())};
+  const auto reckoned = [&] {
+    return UncertainPose{
+        motion_.predict(frame.timestamp),
+        motion_covariance_ + coasting_covariance(frame.timestamp - motion_.last_timestamp())};
+  };
   if (relocalize_ && (must_localize_ || relocalizations_ < options_.state.relocalization_frames)) {
     ++relocalizations_;
     const std::optional<FoundPose> found =
@@ -170,15 +171,15 @@ std::optional<UncertainPose> Tracker::starting_pose(const Frame& frame, TrackRes
       return found->pose;
     }
     if (found && was_lost && relocalizations_ > kPreciseTries &&
-        squared_distance(reckoned, found->pose) <= kPoseGate) {
+        squared_distance(reckoned(), found->pose) <= kPoseGate) {
       result.reason = "found in the map with dead reckoning";
-      return fused(reckoned, found->pose);
+      return fused(reckoned(), found->pose);
     }
     result.reason = "not recognized in the map";
     return std::nullopt;
   }
   result.reason = "begun anew where the last known velocity led";
-  return reckoned;
+  return reckoned();
 }
 
 void Tracker::continue_map(KeyframeId next_keyframe, LandmarkId next_landmark) {

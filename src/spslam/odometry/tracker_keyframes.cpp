@@ -168,6 +168,8 @@ void Tracker::take_corrections(const LocalMapView& view) {
   for (const Landmark& landmark : view.landmarks)
     if (const int i = map_.index_of(landmark.id); i >= 0) {
       ActiveLandmark& active = map_.landmarks[i];
+      // Culling has given it another host: that one's inverse depth is not ours.
+      if (active.landmark.host != landmark.host) continue;
       active.landmark.inverse_depth = landmark.inverse_depth;
       active.prior_inverse_depth = landmark.inverse_depth;
     }

@@ -87,6 +87,13 @@ class PieceAccumulator {
     double hessian, gradient;
   };
 
+  // As much as a point at the other end of the image: otherwise a step that throws points behind the camera
+  // would look like a good one.
+  double cost_behind(const Observation& z) const {
+    const double r = problem_.rig.width * z.inverse_sigma.x();
+    return z.weight * robust(options_.loss, options_.loss_scale, r * r).cost;
+  }
+
   void add_observation(std::size_t i, const std::vector<int>& pairs, Own& own, PieceSums& sums) const {
     const Observation& z = problem_.observations[i];
     const LandmarkVariable& landmark = problem_.landmarks[z.landmark];
@@ -94,7 +101,10 @@ class PieceAccumulator {
     const PairMotion& pair = motions_[static_cast<std::size_t>(pairs[place])];
     Linearized at =
         linearize(problem_.rig, pair.camera_from_host, landmark.bearing, landmark.inverse_depth, z.measured);
-    if (!at.in_front) return;
+    if (!at.in_front) {
+      sums.cost += cost_behind(z);
+      return;
+    }
     const Vector4d basis = DisparityOffset::basis(problem_.rig, z.measured.x(), z.measured.y());
     at.residual.z() += basis.dot(problem_.disparity_offset.coefficients);
     const Eigen::Vector3d w = weigh(at.residual, z, options_, sums.cost);

@@ -25,6 +25,19 @@ Eigen::VectorXd inverse_information(const Eigen::VectorXd& hessian, double dampi
       .select(1 / (hessian.array() * (1 + damping)).max(kLeastInformation), 0.0);
 }
 
+// A pose that nothing observes has empty rows: it stays where it is, and the others do not wait for it. False
+// if there are no others.
+bool hold_unseen(const PoseColumns& columns, ReducedSystem& reduced) {
+  bool any_seen = false;
+  for (int block = 0; block < columns.blocks(); ++block) {
+    Eigen::Map<Matrix6d> own = reduced.hessian.block(block, block);
+    const Vector6d diagonal = own.diagonal();
+    any_seen = any_seen || (diagonal.array() != 0).any();
+    own.diagonal() = (diagonal.array() == 0).select(1, diagonal);
+  }
+  return any_seen;
+}
+
 Step solve_step(const NormalEquations& equations, const ProblemStructure& structure, double damping,
                 ReducedSystem& reduced) {
   Step step;
@@ -32,7 +45,7 @@ Step solve_step(const NormalEquations& equations, const ProblemStructure& struct
   step.landmarks = equations.landmark_gradient;
   if (structure.columns.count > 0) {
     eliminate_landmarks(equations, structure, inverse, damping, reduced);
-    if (!reduced.hessian.factorize()) return step;
+    if (!hold_unseen(structure.columns, reduced) || !reduced.hessian.factorize()) return step;
     step.poses = -reduced.gradient;
     reduced.hessian.solve(step.poses);
     for (Eigen::Index l = 0; l < step.landmarks.size(); ++l)
@@ -100,6 +113,7 @@ SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_cov
   summary.status = SolveStatus::kIterationsUsedUp;
   summary.initial_cost = summary.final_cost = equations.cost;
   double damping = options.initial_damping;
+  bool any_valid = options.iterations == 0;
   while (summary.iterations < options.iterations) {
     if (stop && stop()) {
       summary.status = SolveStatus::kStopped;
@@ -108,6 +122,7 @@ SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_cov
     ++summary.iterations;
     const Step step = solve_step(equations, structure, damping, reduced);
     const Values before(problem);
+    any_valid = any_valid || step.valid;
     if (step.valid) {
       apply(step, structure.columns, problem);
       build_normal_equations(problem, structure, options, trial);
@@ -130,7 +145,8 @@ SolveSummary solve(Problem& problem, const SolverOptions& options, bool want_cov
     }
   }
   summary.final_cost = equations.cost;
-  if (!std::isfinite(summary.final_cost)) summary.status = SolveStatus::kFailed;
+  const bool has_failed = summary.status == SolveStatus::kIterationsUsedUp && !any_valid;
+  if (has_failed || !std::isfinite(summary.final_cost)) summary.status = SolveStatus::kFailed;
   if (want_covariance) find_uncertainty(equations, structure, problem, summary);
   return summary;
 }

@@ -25,18 +25,20 @@ Localizer::Localizer(const StereoRig& rig, const SlamOptions& options, Map map)
   for (const auto& [id, keyframe] : map_.keyframes())
     if (keyframe.features) index_.add(id, *keyframe.features);
   if (options.threads == Threads::kSequential) return;
-  worker_ = std::thread([this] {
-    while (const auto request = requests_.pop()) {
-      const std::optional<Answer> answer = look(*request);
-      const std::scoped_lock lock(answers_mutex_);
-      if (answer) answers_.push_back(*answer);
-    }
-  });
+  worker_.start(
+      [this] {
+        while (const auto request = requests_.pop()) {
+          const std::optional<Answer> answer = look(*request);
+          const std::scoped_lock lock(answers_mutex_);
+          if (answer) answers_.push_back(*answer);
+        }
+      },
+      [this] { requests_.close(); });
 }
 
 void Localizer::stop() {
   requests_.close();
-  if (worker_.joinable()) worker_.join();
+  worker_.join();
 }
 
 void Localizer::finish(const std::vector<TrajectoryPose>& session) {
@@ -49,6 +51,7 @@ void Localizer::finish(const std::vector<TrajectoryPose>& session) {
 }
 
 TrackResult Localizer::place(const TrackerOutput& odometry) {
+  worker_.rethrow();
   TrackResult result = odometry.result;
   if (result.status == TrackStatus::kInitializing) return result;
   const SE3 camera_from_session = result.world_from_camera.inverse();
@@ -83,7 +86,7 @@ TrackResult Localizer::place(const TrackerOutput& odometry) {
 void Localizer::ask(std::shared_ptr<const KeyframeFeatures> features) {
   Request request{frames_.size() - 1, std::move(features), {}};
   if (const auto known = filter_.estimate()) request.expected = known->camera_from_world;
-  if (worker_.joinable()) {
+  if (worker_.is_started()) {
     if (requests_.empty()) requests_.push(std::move(request));  // else the last one still waits
   } else if (const auto answer = look(request)) {
     answers_.push_back(*answer);

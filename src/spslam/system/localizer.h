@@ -7,11 +7,11 @@
 #pragma once
 
 #include <mutex>
-#include <thread>
 
 #include "spslam/odometry/tracker.h"
 #include "spslam/system/bounded_queue.h"
 #include "spslam/system/slam.h"
+#include "spslam/system/worker.h"
 
 namespace spslam {
 
@@ -78,7 +78,7 @@ class Localizer {
   BoundedQueue<Request> requests_{1};
   std::mutex answers_mutex_;  // guards the answers
   std::vector<Answer> answers_;
-  std::thread worker_;  // last: it uses all of the above
+  Worker worker_;  // last: it uses all of the above
 };
 
 }  // namespace spslam

@@ -58,13 +58,17 @@ TrackResult Slam::track(const StereoFrame& pair) {
   if (!std::isfinite(pair.timestamp) || (last_timestamp_ && pair.timestamp <= *last_timestamp_)) {
     TrackResult refused;
     refused.timestamp = pair.timestamp;
+    refused.status = last_status_;
+    refused.world_from_camera = last_pose_;
     refused.reason =
         "time " + std::to_string(pair.timestamp) + " s is not after the last frame's; the frame is left out";
     return refused;
   }
   last_timestamp_ = pair.timestamp;
   const TrackerOutput output = stages_->track(pair);
-  return localizer_ ? localizer_->place(output) : output.result;
+  TrackResult result = localizer_ ? localizer_->place(output) : output.result;
+  last_status_ = result.status, last_pose_ = result.world_from_camera;
+  return result;
 }
 
 void Slam::wait_for_map() {

@@ -73,8 +73,8 @@ class Slam {
   // camera, whose frames nobody keeps. From the same thread as track().
   void wait_for_map();
 
-  // Ends the input: everything waiting is worked off. Called by the destructor too; track() must not be
-  // called after it.
+  // Ends the input: everything waiting is worked off. Without it the
+  // frames of the last window are not in the map. track() must not be called after it.
   void finish();
   // The corrected past; whole only after finish().
   std::vector<TrajectoryPose> trajectory() const;
@@ -91,6 +91,8 @@ class Slam {
  private:
   StereoRig rig_;
   std::optional<double> last_timestamp_;  // s
+  TrackStatus last_status_ = TrackStatus::kInitializing;
+  SE3 last_pose_;                         // world_from_camera
   std::unique_ptr<Localizer> localizer_;  // null unless the map is fixed
   std::unique_ptr<Stages> stages_;
 };

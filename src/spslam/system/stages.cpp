@@ -30,23 +30,47 @@ Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map)
   }
   if (options.localization.enabled) tracker_.set_describe_interval(options.localization.interval);
   tracker_.set_relocalizer([this](const KeyframeFeatures& features) { return relocalize(features); });
-  if (!is_parallel()) return;
-  mapping_ = std::thread([this] {
-    while (auto proposal = proposals_.pop()) insert(std::move(*proposal));
-    described_.close();
-  });
-  loop_closing_ = std::thread([this] {
-    while (const auto id = described_.pop()) close_loop(*id);
-  });
+  if (is_parallel()) start_threads();
 }
 
-TrackerOutput Stages::track(const StereoFrame& pair) {
+void Stages::start_threads() {
+  // Nobody shall wait for what will not come.
+  const auto give_up = [this] {
+    const std::scoped_lock lock(view_mutex_);
+    proposals_.close();
+    described_.close();
+    mapped_.notify_all();
+  };
+  mapping_.start(
+      [this] {
+        while (auto proposal = proposals_.pop()) insert(std::move(*proposal));
+        described_.close();
+      },
+      give_up);
+  loop_closing_.start(
+      [this] {
+        while (const auto id = described_.pop()) close_loop(*id);
+      },
+      give_up);
+}
+
+void Stages::rethrow_failure() const {
+  mapping_.rethrow();
+  loop_closing_.rethrow();
+}
+
+void Stages::adopt_view() {
   LocalMapView view;
   {
     const std::scoped_lock lock(view_mutex_);
     std::swap(view, view_);
   }
   if (view.revision > 0) tracker_.adopt(view);
+}
+
+TrackerOutput Stages::track(const StereoFrame& pair) {
+  rethrow_failure();
+  adopt_view();
   tracker_.set_mapper_busy(mapper_is_behind());
   TrackerOutput output = tracker_.track(pair);
   take(output);
@@ -69,7 +93,8 @@ void Stages::take(TrackerOutput& output) {
 
 void Stages::wait_for_map() {
   std::unique_lock lock(view_mutex_);
-  mapped_.wait(lock, [&] { return unmapped_ == 0; });
+  mapped_.wait(lock, [&] { return unmapped_ == 0 || mapping_.has_failed() || loop_closing_.has_failed(); });
+  rethrow_failure();
 }
 
 void Stages::insert(KeyframeProposal proposal) {
@@ -109,21 +134,23 @@ void Stages::publish(LocalMapView view) {
 // What takes long is done on copies, without the lock.
 void Stages::close_loop(KeyframeId id) {
   LoopAttempt attempt;
-  EssentialGraph graph;
+  Map map;
   {
     const std::scoped_lock lock(map_mutex_);
     attempt = closer_.detect(mapper_.map(), id);
     loop_log_.push_back(attempt);
     if (!attempt.closure) return;
-    graph = copy_essential_graph(mapper_.map(), rig_, *attempt.closure, options_.loop.graph);
+    map = mapper_.map();
   }
-  MapCorrection correction = solve_essential_graph(std::move(graph), options_.loop.graph);
+  MapCorrection correction = solve_essential_graph(
+      essential_graph(map, rig_, *attempt.closure, options_.loop.graph), options_.loop.graph);
   if (correction.empty()) return;
   AdjustmentProblem whole;
   {
     const std::scoped_lock lock(map_mutex_);
     fuse_across(mapper_.map(), rig_, *attempt.closure, options_.loop.fusion, correction);
     write(correction);
+    closer_.closed(*attempt.closure);
     whole = copy_full_problem(mapper_.map(), rig_, options_.loop.full_adjustment);
   }
   spdlog::info("loop closed: keyframe {} sees the place of keyframe {}", attempt.closure->edge.newer.value,
@@ -143,6 +170,7 @@ void Stages::write(MapCorrection correction) {
 
 std::optional<FoundPose> Stages::relocalize(const KeyframeFeatures& features) {
   const std::scoped_lock lock(map_mutex_);
+  adopt_view();  // what is found is found in the map as it is now
   const RelocalizationAttempt attempt =
       spslam::relocalize(features, mapper_.map(), rig_, closer_.index(), options_.loop.relocalization);
   const std::optional<Relocalized>& found = attempt.found ? attempt.found : attempt.imprecise;
@@ -160,13 +188,14 @@ void Stages::finish() {
   TrackerOutput rest = tracker_.finish();
   take(rest);
   stop();
+  rethrow_failure();
 }
 
 void Stages::stop() {
   proposals_.close();
-  if (mapping_.joinable()) mapping_.join();
+  mapping_.join();
   described_.close();
-  if (loop_closing_.joinable()) loop_closing_.join();
+  loop_closing_.join();
 }
 
 std::vector<MappingInfo> Stages::mapping_log() const {

@@ -5,13 +5,13 @@
 #pragma once
 
 #include <mutex>
-#include <thread>
 
 #include "spslam/loop/loop_closer.h"
 #include "spslam/mapping/local_mapper.h"
 #include "spslam/odometry/tracker.h"
 #include "spslam/system/bounded_queue.h"
 #include "spslam/system/slam.h"
+#include "spslam/system/worker.h"
 
 namespace spslam {
 
@@ -22,7 +22,8 @@ class Stages {
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 
-  // Frames in order of time. The output has no keyframes any more: they are on their way.
+  // Frames in order of time. The output has no keyframes any more: they are on their way. This, the waiting
+  // and the end throw what a thread has failed with, such as std::bad_alloc.
   TrackerOutput track(const StereoFrame& pair);
   // See Slam::wait_for_map().
   void wait_for_map();
@@ -40,6 +41,9 @@ class Stages {
   std::vector<LoopAttempt> loop_log() const;
 
  private:
+  void start_threads();
+  void rethrow_failure() const;
+  void adopt_view();
   void take(TrackerOutput& output);
   void insert(KeyframeProposal proposal);
   void close_loop(KeyframeId id);
@@ -67,9 +71,9 @@ class Stages {
   std::vector<LoopAttempt> loop_log_;
   std::mutex view_mutex_;  // guards what follows, so that track() never waits for the mapper
   LocalMapView view_;
-  int unmapped_ = 0;                    // keyframes on their way into the map
-  std::condition_variable mapped_;      // none is
-  std::thread mapping_, loop_closing_;  // last: they use all of the above
+  int unmapped_ = 0;                // keyframes on their way into the map
+  std::condition_variable mapped_;  // none is, or none will ever be
+  Worker mapping_, loop_closing_;   // last: they use all of the above
 };
 
 }  // namespace spslam
