@@ -20,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "spslam/base/options.h"
 #include "spslam/camera/stereo_frame.h"
@@ -67,6 +68,8 @@ class Dataset {
   virtual bool planar_ground_truth() const = 0;  // two dimensions and a heading only (GNSS of a boat)
   virtual int unpaired() const = 0;             // images left out because the other eye has none of that time
   virtual std::string description() const = 0;  // one line for people
+  // What does not look right but may be so, a sentence each; whoever opens a data set for people logs them.
+  virtual const std::vector<std::string>& warnings() const = 0;
 };
 
 // Opens a folder and checks at once whatever is cheap to check: that the images of both eyes and the times

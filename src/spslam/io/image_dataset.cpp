@@ -87,6 +87,7 @@ class ImageDataset final : public Dataset {
   const std::optional<Trajectory>& ground_truth() const override { return sequence_.ground_truth; }
   bool planar_ground_truth() const override { return sequence_.planar_ground_truth; }
   int unpaired() const override { return sequence_.unpaired; }
+  const std::vector<std::string>& warnings() const override { return sequence_.warnings; }
 
   StereoFrame load(int index) const override {
     const std::size_t i = checked(index);

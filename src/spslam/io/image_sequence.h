@@ -28,6 +28,7 @@ struct ImageSequence {
   std::optional<Trajectory> ground_truth;  // of the left camera as calibrated, before rectification
   bool planar_ground_truth = false;
   int unpaired = 0;
+  std::vector<std::string> warnings;  // one sentence each
 };
 
 // One reader a format. Each throws InputError if the folder lacks what it needs.
@@ -36,9 +37,9 @@ ImageSequence find_euroc(const std::filesystem::path& folder, const DatasetOptio
 ImageSequence find_usvinland(const std::filesystem::path& folder, const DatasetOptions& options);
 ImageSequence find_plain(const std::filesystem::path& folder, const DatasetOptions& options);
 
-// Fills times, left and right from two folders of images whose names correspond. A hole in the middle of one
-// eye is a frame with a missing file; an eye that ends early, or another number of times than of frames, is
-// an InputError.
+// Fills times, left and right from two folders of images whose names correspond (image_names.h). A hole in
+// the middle of one eye is a frame with a missing file; an eye that ends early, or another number of times
+// than of frames, is an InputError.
 void find_frames(ImageSequence& sequence, const std::filesystem::path& left,
                  const std::filesystem::path& right, const std::filesystem::path& times,
                  const DatasetOptions& options);
