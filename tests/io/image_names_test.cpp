@@ -97,6 +97,13 @@ TEST_F(ImageNames, OrderIsTheLastResortAndSaysSo) {
   EXPECT_THAT(message_of([&] { pair({"a.png", "b.png"}, {"c.png"}); }), HasSubstr("the same number"));
 }
 
+// macOS lays a ._NAME beside each NAME on foreign disks.
+TEST_F(ImageNames, HiddenFilesAreNoImages) {
+  const ImagePairs pairs = pair({"1.jpg", "2.jpg", "._1.jpg", "._2.jpg", ".trash.png"}, {"1.jpg", "2.jpg"});
+  EXPECT_THAT(files(pairs.left), ElementsAre("1.jpg", "2.jpg"));
+  EXPECT_THAT(message_of([&] { pair({"._1.jpg"}, {"1.jpg"}); }), HasSubstr("holds no PNG or JPEG"));
+}
+
 TEST_F(ImageNames, AnEyeThatEndsEarlyIsRefused) {
   EXPECT_THAT(message_of([&] {
                 pair({"l_1.png", "l_2.png"}, {"r_1.png", "r_2.png", "r_3.png"});

@@ -51,11 +51,13 @@ std::string natural_key(const std::string& name) {
 
 using Images = std::map<std::string, fs::path>;  // by name without extension, later by key
 
+// Names that begin with a dot are hidden files, such as the ._NAME.jpg of macOS, which are no images.
 bool is_image(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+  const bool known = extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+  return known && !file.filename().string().starts_with('.');
 }
 
 Images list_images(const fs::path& folder) {
