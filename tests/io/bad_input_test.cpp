@@ -77,6 +77,20 @@ INSTANTIATE_TEST_SUITE_P(
                     write_text_file(f / "calib.txt", format_kitti_calibration(rig));
                   },
                   {"calib.txt", "far from the middle", "another image size"}},
+        BadFolder{"calibration_of_half_the_size",
+                  [](const fs::path& f) {
+                    StereoRig rig = small_rig();
+                    rig.cx = 15.5, rig.cy = 11.5;
+                    write_text_file(f / "calib.txt", format_kitti_calibration(rig));
+                  },
+                  {"calib.txt", "far from the middle", "64 x 48 px", "--calibration", "width and height"}},
+        BadFolder{"calibration_of_half_the_height",
+                  [](const fs::path& f) {
+                    StereoRig rig = small_rig();
+                    rig.cy = 11.5;
+                    write_text_file(f / "calib.txt", format_kitti_calibration(rig));
+                  },
+                  {"far from the middle"}},
         BadFolder{"swapped_eyes",
                   [](const fs::path& f) {
                     StereoRig rig = small_rig();
@@ -102,6 +116,15 @@ INSTANTIATE_TEST_SUITE_P(
                       write_image(f / "image_1" / frame_name(i), noise_image(1, 32, 48));
                   },
                   {"64 x 48 px", "32 x 48 px", "one size"}},
+        BadFolder{"as_many_of_another_size",
+                  [](const fs::path& f) {
+                    for (const char* eye : {"image_0", "image_1"})
+                      for (int i = 0; i < kFrames; i += 2)
+                        write_image(f / eye / frame_name(i), noise_image(1, 32, 24));
+                    fs::resize_file(f / "image_0" / frame_name(2), 0);  // the first five: two against two
+                    fs::resize_file(f / "image_0" / frame_name(5), 0);
+                  },
+                  {"several sizes", "000000.png 32 x 24 px", "000001.png 64 x 48 px", "--calibration"}},
         BadFolder{"no_readable_image",
                   [](const fs::path& f) {
                     for (int i = 0; i < kFrames; ++i) write_text_file(f / "image_0" / frame_name(i), "");
@@ -207,6 +230,20 @@ TEST(BadInput, FirstPairUnreadable) {
   const std::unique_ptr<Dataset> dataset = open_dataset(folder.path());
   EXPECT_THAT(dataset->load(0).problem, HasSubstr("empty"));
   EXPECT_EQ(dataset->load(1).problem, "");
+}
+
+// The size is the calibration's, or that of most of the first pairs.
+TEST(BadInput, FirstPairOfAnotherSize) {
+  for (const bool stated : {false, true}) {
+    const TemporaryFolder folder;
+    stated ? write_plain(folder.path()) : write_kitti(folder.path());
+    for (const char* eye : {stated ? "left" : "image_0", stated ? "right" : "image_1"})
+      write_image(folder.path() / eye / frame_name(0), noise_image(1, 32, 24));
+    const std::unique_ptr<Dataset> dataset = open_dataset(folder.path());
+    EXPECT_EQ(dataset->rig().width, kWidth);
+    EXPECT_THAT(dataset->load(0).problem, HasSubstr("32 x 24 px instead of 64 x 48 px"));
+    for (int i = 1; i < kFrames; ++i) EXPECT_EQ(dataset->load(i).problem, "");
+  }
 }
 
 TEST(BadInput, PairMissingInBothEyes) {
