@@ -229,6 +229,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadRun{"NoSuchFrames", {"--start", "99"}, 2, {"99", "16"}},
                     BadRun{"EmptyRange", {"--start", "5", "--end", "5"}, 2, {"start"}},
                     BadRun{"UnknownFormat", {"--format", "kiti"}, 2, {"kitti"}},
+                    BadRun{"RateOutOfRange", {"--rate", "-1"}, 2, {"--rate", "-1"}},
+                    BadRun{"ToleranceOutOfRange", {"--pair-tolerance", "2"}, 2, {"--pair-tolerance"}},
+                    BadRun{"DepthOutOfRange", {"--bit-depth", "17"}, 2, {"--bit-depth"}},
                     BadRun{"OtherFormat", {"--format", "euroc"}, 1, {"sensor.yaml"}},
                     BadRun{"MissingCalibration", {"--calibration", "none.yaml"}, 1, {"none.yaml"}}),
     [](const testing::TestParamInfo<BadRun>& row) { return row.param.name; });

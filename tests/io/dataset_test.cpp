@@ -12,6 +12,7 @@ namespace spslam {
 namespace {
 
 using namespace test;
+using testing::AllOf;
 using testing::HasSubstr;
 
 void expect_all_frames(const Dataset& dataset) {
@@ -163,7 +164,7 @@ TEST(Dataset, EurocUnpairedImagesAreCounted) {
   DatasetOptions options;
   options.pair_tolerance = 0.0005;
   EXPECT_THAT(message_of([&] { open_dataset(folder.path(), options); }),
-              HasSubstr("none of 6 left and 5 right"));
+              AllOf(HasSubstr("none of 6 left and 5 right"), HasSubstr("--pair-tolerance")));
   options.pair_tolerance = 0.02;
   EXPECT_EQ(open_dataset(folder.path(), options)->size(), 5);
 }

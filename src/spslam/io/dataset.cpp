@@ -49,7 +49,7 @@ DatasetFormat recognise_dataset(const fs::path& folder) {
   if (fitting.empty())
     throw InputError(folder.string() +
                      " is no sequence that is known; the formats and what each needs:" + kNeeds);
-  throw InputError(folder.string() + " fits several formats; say which with the option format:" + kNeeds);
+  throw InputError(folder.string() + " fits several formats; say which with --format:" + kNeeds);
 }
 
 std::unique_ptr<Dataset> open_dataset(const fs::path& folder, const DatasetOptions& options) {

@@ -32,6 +32,7 @@ namespace spslam {
 enum class DatasetFormat { kAuto, kKitti, kEuroc, kUsvinland, kPlain };
 std::span<const char* const> option_names(DatasetFormat);
 
+// Messages call them by their names on the command line: --format, --pair-tolerance, ...
 struct DatasetOptions {
   DatasetFormat format = DatasetFormat::kAuto;
   std::string calibration;
@@ -41,14 +42,17 @@ struct DatasetOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit(self.format, {"format", "", "folder format; auto recognises it"});
+    visit(self.format,
+          {"format", "", "format of the folder: auto (default), kitti, euroc, usvinland or plain"});
     visit(self.calibration,
-          {"calibration", "", "calibration file instead of the folder's own (YAML, or KITTI .txt)"});
-    visit(self.rate, {"rate", "Hz", "frames per second instead of a times file; 0 = use the file", 0, 1000});
+          {"calibration", "",
+           "calibration file instead of the folder's own: YAML, or KITTI's if it ends in .txt"});
+    visit(self.rate,
+          {"rate", "Hz", "frames per second instead of the folder's times; 0: its times", 0, 1000});
     visit(self.pair_tolerance,
-          {"pair_tolerance", "s", "largest time between left and right of a pair (euroc)", 0, 1});
+          {"pair_tolerance", "s", "largest time between left and right of a pair in EuRoC's folders", 0, 1});
     visit(self.bit_depth,
-          {"bit_depth", "bit", "used bits of 16 bit images; 0 = measured on the sequence", 0, 16});
+          {"bit_depth", "bit", "used bits of 16 bit images, all above is white; 0: measured", 0, 16});
   }
 };
 

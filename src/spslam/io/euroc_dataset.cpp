@@ -41,7 +41,7 @@ void find_pairs(ImageSequence& sequence, const fs::path& root, const DatasetOpti
     throw InputError(root.string() + ": none of " + std::to_string(left.size()) + " left and " +
                      std::to_string(right.size()) + " right images are within " +
                      fixed_text(options.pair_tolerance, 6) +
-                     " s of each other; are both of one recording? pair_tolerance sets the limit");
+                     " s of each other; are both of one recording? --pair-tolerance sets the limit");
   for (const auto& [l, r] : pairs) {
     sequence.times.push_back(static_cast<double>(left[l].time_ns) * 1e-9);
     sequence.left.push_back(root / "cam0" / "data" / left[l].file);
@@ -94,7 +94,7 @@ std::vector<std::pair<int, int>> pair_by_time(std::span<const EurocImage> left,
 
 ImageSequence find_euroc(const fs::path& folder, const DatasetOptions& options) {
   if (options.rate > 0)
-    throw OptionError("option rate does not go with euroc folders: each image has its time; remove it");
+    throw OptionError("--rate does not go with EuRoC's folders: each image has its time; remove it");
   ImageSequence sequence(DatasetFormat::kEuroc, folder);
   const fs::path root = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
   SE3 body_from_left;

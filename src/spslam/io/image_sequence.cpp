@@ -22,9 +22,9 @@ std::vector<double> times_at_rate(std::size_t frames, double rate) {
 
 std::vector<double> read_times(const fs::path& file) {
   if (!fs::exists(file))
-    throw InputError(
-        file.string() +
-        " is missing; it holds the time of each frame in seconds, one a line, or give the frame rate (rate)");
+    throw InputError(file.string() +
+                     " is missing; it holds the time of each frame in seconds, one a line, or give the frame "
+                     "rate (--rate)");
   return parse_times(read_text_file(file), file.string());
 }
 
@@ -53,7 +53,7 @@ void find_calibration(ImageSequence& sequence, std::span<const fs::path> candida
                                     [](const fs::path& path) { return fs::exists(path); });
     if (found == candidates.end())
       throw InputError("calibration is missing: there is no " + candidates.front().string() +
-                       "; add it or give another file with the option calibration");
+                       "; add it or give another file with --calibration");
     sequence.calibration_file = *found;
   }
   sequence.calibration = read_calibration(sequence.calibration_file);
