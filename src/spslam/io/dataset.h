@@ -6,13 +6,16 @@
 //   for (Prefetcher frames(*dataset); const auto frame = frames.next();) slam.track(frame->pair);
 //
 // Formats (docs of each at its reader, *_dataset.cpp):
-//   kitti      image_0/, image_1/, calib.txt, times.txt; truth in poses.txt or ../../poses/NN.txt
-//   euroc      mav0/cam0|cam1/{data.csv, data/, sensor.yaml}; rectified on loading; truth in
-//   mav0/state_groundtruth_estimate0/data.csv usvinland  PIC_Left_Rectified/, PIC_Right_Rectified/ (or
-//   PIC_Left/, PIC_Right/ with a raw calibration), Stereo_Timestamp.txt, calibration.yaml;
-//              truth in GPSBase.csv (planar)
-//   plain      left/, right/, calibration.yaml, times.txt or a rate; truth in poses.txt (KITTI) or
-//   groundtruth.txt (TUM)
+//   kitti      image_0/, image_1/ (or, without them, image_2/, image_3/), calib.txt, times.txt;
+//              truth in poses.txt or ../../poses/NN.txt
+//   kitti-raw  image_00/, image_01/ (or image_02/, image_03/), each with data/ and timestamps.txt;
+//              calib_cam_to_cam.txt here or in the folder above
+//   euroc      mav0/cam0|cam1/{data.csv, data/, sensor.yaml}; rectified on loading;
+//              truth in mav0/state_groundtruth_estimate0/data.csv
+//   usvinland  PIC_Left_Rectified/, PIC_Right_Rectified/ (or PIC_Left/, PIC_Right/ with a raw calibration),
+//              Stereo_Timestamp.txt, calibration.yaml; truth in GPSBase.csv (planar)
+//   plain      left/, right/, calibration.yaml, times.txt or a rate;
+//              truth in poses.txt (KITTI) or groundtruth.txt (TUM)
 #pragma once
 
 #include <filesystem>
@@ -29,7 +32,7 @@
 
 namespace spslam {
 
-enum class DatasetFormat { kAuto, kKitti, kEuroc, kUsvinland, kPlain };
+enum class DatasetFormat { kAuto, kKitti, kKittiRaw, kEuroc, kUsvinland, kPlain };
 std::span<const char* const> option_names(DatasetFormat);
 
 // Messages call them by their names on the command line: --format, --pair-tolerance, ...
@@ -42,8 +45,8 @@ struct DatasetOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit(self.format,
-          {"format", "", "format of the folder: auto (default), kitti, euroc, usvinland or plain"});
+    visit(self.format, {"format", "",
+                        "format of the folder: auto (default), kitti, kitti-raw, euroc, usvinland or plain"});
     visit(self.calibration,
           {"calibration", "",
            "calibration file instead of the folder's own: YAML, or KITTI's if it ends in .txt"});

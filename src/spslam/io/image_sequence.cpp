@@ -45,7 +45,7 @@ void find_frames(ImageSequence& sequence, const fs::path& left, const fs::path& 
 }
 
 void find_calibration(ImageSequence& sequence, std::span<const fs::path> candidates,
-                      const DatasetOptions& options) {
+                      const DatasetOptions& options, KittiPair pair) {
   if (!options.calibration.empty()) {
     sequence.calibration_file = options.calibration;
   } else {
@@ -56,7 +56,7 @@ void find_calibration(ImageSequence& sequence, std::span<const fs::path> candida
                        "; add it or give another file with --calibration");
     sequence.calibration_file = *found;
   }
-  sequence.calibration = read_calibration(sequence.calibration_file);
+  sequence.calibration = read_calibration(sequence.calibration_file, pair);
 }
 
 }  // namespace spslam

@@ -33,6 +33,7 @@ struct ImageSequence {
 
 // One reader a format. Each throws InputError if the folder lacks what it needs.
 ImageSequence find_kitti(const std::filesystem::path& folder, const DatasetOptions& options);
+ImageSequence find_kitti_raw(const std::filesystem::path& folder, const DatasetOptions& options);
 ImageSequence find_euroc(const std::filesystem::path& folder, const DatasetOptions& options);
 ImageSequence find_usvinland(const std::filesystem::path& folder, const DatasetOptions& options);
 ImageSequence find_plain(const std::filesystem::path& folder, const DatasetOptions& options);
@@ -46,7 +47,7 @@ void find_frames(ImageSequence& sequence, const std::filesystem::path& left,
 
 // Fills calibration from options.calibration or, without it, the first of the folder's files that exists.
 void find_calibration(ImageSequence& sequence, std::span<const std::filesystem::path> candidates,
-                      const DatasetOptions& options);
+                      const DatasetOptions& options, KittiPair pair = KittiPair::kGrey);
 
 // Checks calibration and first images against each other.
 std::unique_ptr<Dataset> make_image_dataset(ImageSequence sequence, const DatasetOptions& options);
