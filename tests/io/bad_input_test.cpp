@@ -279,6 +279,30 @@ TEST(BadInput, YamlCalibrationOfAnotherSize) {
               AllOf(HasSubstr("640 x 320 px"), HasSubstr("64 x 48 px"), HasSubstr("calibration.yaml")));
 }
 
+TEST(BadInput, ImplausibleUnitsAreWarnings) {
+  const TemporaryFolder folder;
+  write_plain(folder.path());
+  EXPECT_TRUE(open_dataset(folder.path())->warnings().empty());
+  std::string milliseconds, sparse;
+  for (int i = 0; i < kFrames; ++i) milliseconds += std::to_string(33 * i) + "\n";
+  times(folder.path(), milliseconds);
+  EXPECT_THAT(open_dataset(folder.path())->warnings(),
+              testing::ElementsAre(AllOf(HasSubstr("33 s"), HasSubstr("times in seconds?"))));
+  DatasetOptions options;
+  options.rate = 1000;  // fast, but there are such cameras
+  EXPECT_TRUE(open_dataset(folder.path(), options)->warnings().empty());
+  std::string hours;
+  for (int i = 0; i < kFrames; ++i) hours += fixed_text(i / 72000.0, 9) + "\n";
+  times(folder.path(), hours);
+  StereoRig rig = small_rig();
+  rig.baseline = 80;
+  write_text_file(folder.path() / "calibration.yaml", format_calibration_yaml(rig));
+  EXPECT_THAT(
+      open_dataset(folder.path())->warnings(),
+      testing::ElementsAre(HasSubstr("times in seconds?"),
+                           AllOf(HasSubstr("calibration.yaml"), HasSubstr("80 m; is it in metres?"))));
+}
+
 TEST(BadInput, OptionsOutOfRange) {
   DatasetOptions options;
   options.rate = -1;

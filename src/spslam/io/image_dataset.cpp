@@ -110,6 +110,22 @@ void check_unstated_size(const StereoRig& rig, const ImageSequence& sequence) {
         "is right, state the size: the same values in a YAML file with width and height");
 }
 
+// Values that are right in another unit: nothing can tell for sure, so they are warnings.
+void check_units(const ImageSequence& sequence, const StereoRig& rig, std::vector<std::string>& warnings) {
+  constexpr double kLongest = 10, kShortest = 0.0005;  // s between frames
+  constexpr double kNarrowest = 0.01, kWidest = 5;     // m
+  if (const std::size_t frames = sequence.times.size(); frames > 1) {
+    const double interval =
+        (sequence.times.back() - sequence.times.front()) / static_cast<double>(frames - 1);
+    if (interval > kLongest || interval < kShortest)
+      warnings.push_back(sequence.folder.string() + ": the mean time between frames is " +
+                         detail::print_double(interval) + " s; are the times in seconds?");
+  }
+  if (rig.baseline < kNarrowest || rig.baseline > kWidest)
+    warnings.push_back(sequence.calibration_file.string() + ": the baseline is " +
+                       detail::print_double(rig.baseline) + " m; is it in metres?");
+}
+
 class ImageDataset final : public Dataset {
  public:
   ImageDataset(ImageSequence sequence, const DatasetOptions& options) : sequence_(std::move(sequence)) {
@@ -117,6 +133,7 @@ class ImageDataset final : public Dataset {
     const ReadablePair pair = typical_pair(sequence_, {rig_.width, rig_.height});
     image_size_ = pair.size;
     if (rig_.width == 0) set_unstated_size(pair.size);
+    check_units(sequence_, rig_, sequence_.warnings);
     bit_depth_ = pair.sixteen_bit ? sequence_bit_depth(sequence_, options) : 16;
     if (rectifier_ && sequence_.ground_truth && !sequence_.planar_ground_truth)
       for (StampedPose& pose : *sequence_.ground_truth)
