@@ -279,6 +279,24 @@ TEST(BadInput, YamlCalibrationOfAnotherSize) {
               AllOf(HasSubstr("640 x 320 px"), HasSubstr("64 x 48 px"), HasSubstr("calibration.yaml")));
 }
 
+TEST(BadInput, EurocCalibrationOfAnotherSize) {
+  const TemporaryFolder folder;
+  write_euroc(folder.path());
+  const auto shrink = [&](const char* camera) {
+    const fs::path file = folder.path() / "mav0" / camera / "sensor.yaml";
+    std::string text = read_text_file(file);
+    text.replace(text.find("[64, 48]"), 8, "[60, 44]");
+    write_text_file(file, text);
+  };
+  shrink("cam1");
+  EXPECT_THAT(message_of([&] { open_dataset(folder.path()); }),
+              AllOf(HasSubstr("cam0/sensor.yaml"), HasSubstr("cam1/sensor.yaml"), HasSubstr("differ in size"),
+                    HasSubstr("64 x 48 px"), HasSubstr("60 x 44 px")));
+  shrink("cam0");
+  EXPECT_THAT(message_of([&] { open_dataset(folder.path()); }),
+              AllOf(HasSubstr("cam0/sensor.yaml is for images of 60 x 44 px"), HasSubstr("64 x 48 px")));
+}
+
 TEST(BadInput, ImplausibleUnitsAreWarnings) {
   const TemporaryFolder folder;
   write_plain(folder.path());

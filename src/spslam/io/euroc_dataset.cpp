@@ -26,6 +26,18 @@ EurocSensor read_sensor(const fs::path& file) {
   return parse_euroc_sensor(read_text_file(file), file.string());
 }
 
+// The errors of a pair name both of its files.
+RawStereo raw_pair(const EurocSensor& left, const EurocSensor& right, const fs::path& left_file,
+                   const fs::path& right_file) {
+  const RawStereo raw{left.camera, right.camera, right.body_from_camera.inverse() * left.body_from_camera};
+  try {
+    raw.check();
+  } catch (const InputError& error) {
+    throw InputError(left_file.string() + ", " + right_file.string() + ": " + error.what());
+  }
+  return raw;
+}
+
 std::vector<EurocImage> read_images(const fs::path& file) {
   if (!fs::exists(file)) throw InputError(file.string() + " is missing; it lists `t_ns,filename` of one eye");
   std::vector<EurocImage> images = parse_euroc_images(read_text_file(file), file.string());
@@ -99,12 +111,11 @@ ImageSequence find_euroc(const fs::path& folder, const DatasetOptions& options) 
   const fs::path root = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
   SE3 body_from_left;
   if (options.calibration.empty()) {
-    const EurocSensor left = read_sensor(root / "cam0" / "sensor.yaml"),
-                      right = read_sensor(root / "cam1" / "sensor.yaml");
+    const fs::path left_file = root / "cam0" / "sensor.yaml", right_file = root / "cam1" / "sensor.yaml";
+    const EurocSensor left = read_sensor(left_file);
     body_from_left = left.body_from_camera;
-    sequence.calibration.raw = {left.camera, right.camera,
-                                right.body_from_camera.inverse() * left.body_from_camera};
-    sequence.calibration_file = root / "cam0" / "sensor.yaml";
+    sequence.calibration.raw = raw_pair(left, read_sensor(right_file), left_file, right_file);
+    sequence.calibration_file = left_file;
   } else {
     find_calibration(sequence, {}, options);
     if (fs::exists(root / "cam0" / "sensor.yaml"))
