@@ -242,6 +242,19 @@ TEST_F(Run, MissingDatasetIsAnInputError) {
   EXPECT_THAT(refused.err, HasSubstr("does not exist"));
 }
 
+TEST_F(Run, BrokenTruthOfTheFolderIsAWarning) {
+  const std::string dataset = own_scene(), poses = dataset + "/poses.txt";
+  std::ofstream(poses) << "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  const ProcessResult done = run({}, dataset);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("no ground truth"));
+  EXPECT_THAT(result("log.txt"), HasSubstr("1 poses for 16 times"));
+  EXPECT_FALSE(fs::exists(out() + "/metrics.json"));
+  const ProcessResult refused = run({"--overwrite", "--truth", poses}, dataset);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("1 poses for 16 times"));
+}
+
 TEST_F(Run, CalibrationOfAnotherSizeIsAnInputError) {
   StereoRig rig = test::scene_rig();
   rig.width = 640, rig.height = 400, rig.cx = 319.5, rig.cy = 199.5;

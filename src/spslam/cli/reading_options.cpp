@@ -3,6 +3,8 @@
 
 #include "spslam/cli/reading_options.h"
 
+#include <spdlog/spdlog.h>
+
 #include "spslam/cli/commands.h"
 
 namespace spslam {
@@ -32,6 +34,10 @@ struct OptionOfField {
 void add_reading_options(CLI::App& command, DatasetOptions& reading) {
   OptionOfField visitor{command};
   DatasetOptions::fields(reading, visitor);
+}
+
+void log_warnings(const Dataset& dataset) {
+  for (const std::string& warning : dataset.warnings()) spdlog::warn("{}", warning);
 }
 
 }  // namespace spslam

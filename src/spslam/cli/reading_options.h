@@ -12,4 +12,6 @@ namespace spslam {
 // Adds an option for each field of DatasetOptions: --format, --calibration, --rate, --pair-tolerance, ...
 void add_reading_options(CLI::App& command, DatasetOptions& reading);
 
+void log_warnings(const Dataset& dataset);
+
 }  // namespace spslam

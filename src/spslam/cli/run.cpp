@@ -198,7 +198,7 @@ int run_dataset(const RunArguments& arguments) {
                                   "; spslam run --config reads this file\n" + to_yaml(options));
   spdlog::info("spslam " SPSLAM_VERSION ", preset {}", preset_name(arguments.options.preset));
   spdlog::info("{}", dataset->description());
-  for (const std::string& warning : dataset->warnings()) spdlog::warn("{}", warning);
+  log_warnings(*dataset);
   watch_for_interruption();
   RunRecord record;
   const std::exception_ptr failure = track_frames(arguments, *dataset, frames, slam, record);

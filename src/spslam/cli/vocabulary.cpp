@@ -77,6 +77,7 @@ int train(const TrainArguments& arguments) {
   std::size_t descriptors = 0;
   for (const std::string& folder : arguments.images.datasets) {
     const std::unique_ptr<Dataset> dataset = open_dataset(folder, arguments.images.reading);
+    log_warnings(*dataset);
     for_each_image(*dataset, arguments.images, [&](int, std::vector<Descriptor> found) {
       descriptors += found.size();
       images.push_back(std::move(found));
@@ -128,6 +129,7 @@ SE3 world_from_first_camera(const fs::path& folder) {
 
 std::vector<PlaceView> load_views(const std::string& folder, const ImageArguments& arguments) {
   const std::unique_ptr<Dataset> dataset = open_dataset(folder, arguments.reading);
+  log_warnings(*dataset);
   if (!dataset->ground_truth())
     throw InputError(folder +
                      " has no poses; recall can be measured where it is known what is seen from where");

@@ -42,6 +42,7 @@ struct DatasetOptions {
   double rate = 0;
   double pair_tolerance = 0.003;  // a third of the frame time of a 100 Hz camera
   int bit_depth = 0;
+  std::string truth;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -56,6 +57,9 @@ struct DatasetOptions {
           {"pair_tolerance", "s", "largest time between left and right of a pair in EuRoC's folders", 0, 1});
     visit(self.bit_depth,
           {"bit_depth", "bit", "used bits of 16 bit images, all above is white; 0: measured", 0, 16});
+    visit(self.truth, {"truth", "",
+                       "true trajectory instead of the folder's own: TUM's, KITTI's (a row a frame), EuRoC's "
+                       "or USVInland's"});
   }
 };
 

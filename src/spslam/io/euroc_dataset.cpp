@@ -109,21 +109,20 @@ ImageSequence find_euroc(const fs::path& folder, const DatasetOptions& options) 
     throw OptionError("--rate does not go with EuRoC's folders: each image has its time; remove it");
   ImageSequence sequence(DatasetFormat::kEuroc, folder);
   const fs::path root = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
-  SE3 body_from_left;
   if (options.calibration.empty()) {
     const fs::path left_file = root / "cam0" / "sensor.yaml", right_file = root / "cam1" / "sensor.yaml";
     const EurocSensor left = read_sensor(left_file);
-    body_from_left = left.body_from_camera;
+    sequence.truth_body_from_left = left.body_from_camera;
     sequence.calibration.raw = raw_pair(left, read_sensor(right_file), left_file, right_file);
     sequence.calibration_file = left_file;
   } else {
     find_calibration(sequence, {}, options);
     if (fs::exists(root / "cam0" / "sensor.yaml"))
-      body_from_left = read_sensor(root / "cam0" / "sensor.yaml").body_from_camera;
+      sequence.truth_body_from_left = read_sensor(root / "cam0" / "sensor.yaml").body_from_camera;
   }
   find_pairs(sequence, root, options);
-  if (const fs::path truth = root / "state_groundtruth_estimate0" / "data.csv"; fs::exists(truth))
-    sequence.ground_truth = parse_euroc_ground_truth(read_text_file(truth), truth.string(), body_from_left);
+  const TruthFile truth[] = {{root / "state_groundtruth_estimate0" / "data.csv", TrajectoryFormat::kEuroc}};
+  find_truth(sequence, truth, options);
   return sequence;
 }
 

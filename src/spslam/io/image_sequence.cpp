@@ -28,6 +28,22 @@ std::vector<double> read_times(const fs::path& file) {
   return parse_times(read_text_file(file), file.string());
 }
 
+// KITTI's poses have the times of the frames. They, in KITTI's folders, and EuRoC's are of the body.
+void read_truth(ImageSequence& sequence, const TruthFile& file) {
+  const std::string text = read_text_file(file.path), name = file.path.string();
+  const TrajectoryFormat format =
+      file.format == TrajectoryFormat::kAuto ? recognise_trajectory(text) : file.format;
+  if (format == TrajectoryFormat::kKitti) {
+    sequence.ground_truth = parse_kitti_poses(text, name, sequence.times);
+    if (sequence.format == DatasetFormat::kKitti || sequence.format == DatasetFormat::kKittiRaw)
+      for (StampedPose& pose : *sequence.ground_truth)
+        pose.world_from_camera = pose.world_from_camera * sequence.truth_body_from_left;
+  } else {
+    sequence.ground_truth = read_trajectory(file.path, {format, {}, sequence.truth_body_from_left});
+  }
+  sequence.planar_ground_truth = format == TrajectoryFormat::kUsvinland;
+}
+
 }  // namespace
 
 void find_frames(ImageSequence& sequence, const fs::path& left, const fs::path& right, const fs::path& times,
@@ -57,6 +73,19 @@ void find_calibration(ImageSequence& sequence, std::span<const fs::path> candida
     sequence.calibration_file = *found;
   }
   sequence.calibration = read_calibration(sequence.calibration_file, pair);
+}
+
+void find_truth(ImageSequence& sequence, std::span<const TruthFile> candidates,
+                const DatasetOptions& options) {
+  if (!options.truth.empty()) return read_truth(sequence, {options.truth, TrajectoryFormat::kAuto});
+  const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                  [](const TruthFile& file) { return fs::exists(file.path); });
+  if (found == candidates.end()) return;
+  try {
+    read_truth(sequence, *found);
+  } catch (const InputError& error) {
+    sequence.warnings.push_back(std::string("no ground truth, as it cannot be used: ") + error.what());
+  }
 }
 
 }  // namespace spslam

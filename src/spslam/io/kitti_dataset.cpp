@@ -7,7 +7,6 @@
 // not read.
 
 #include "spslam/io/image_sequence.h"
-#include "spslam/io/text.h"
 
 namespace spslam {
 namespace {
@@ -35,16 +34,12 @@ ImageSequence find_kitti(const fs::path& folder, const DatasetOptions& options) 
   find_calibration(sequence, calibration, options, pair);
   find_frames(sequence, folder / (grey ? "image_0" : "image_2"), folder / (grey ? "image_1" : "image_3"),
               folder / "times.txt", options);
+  if (!grey) sequence.truth_body_from_left = sequence.calibration.reference_from_left;
   const fs::path name = named(folder);
   const fs::path shared = name.parent_path().parent_path() / "poses" / (name.filename().string() + ".txt");
-  for (const fs::path& file : {folder / "poses.txt", shared}) {
-    if (!fs::exists(file)) continue;
-    sequence.ground_truth = parse_kitti_poses(read_text_file(file), file.string(), sequence.times);
-    if (!grey)
-      for (StampedPose& pose : *sequence.ground_truth)
-        pose.world_from_camera = pose.world_from_camera * sequence.calibration.reference_from_left;
-    break;
-  }
+  const TruthFile truth[] = {{folder / "poses.txt", TrajectoryFormat::kKitti},
+                             {shared, TrajectoryFormat::kKitti}};
+  find_truth(sequence, truth, options);
   return sequence;
 }
 
@@ -58,6 +53,8 @@ ImageSequence find_kitti_raw(const fs::path& folder, const DatasetOptions& optio
   const fs::path left = folder / (grey ? "image_00" : "image_02"),
                  right = folder / (grey ? "image_01" : "image_03");
   find_frames(sequence, left / "data", right / "data", left / "timestamps.txt", options);
+  if (!grey) sequence.truth_body_from_left = sequence.calibration.reference_from_left;
+  find_truth(sequence, {}, options);
   return sequence;
 }
 
