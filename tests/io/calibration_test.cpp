@@ -102,6 +102,21 @@ TEST(Calibration, YamlRawPair) {
   EXPECT_EQ(calibration.raw->right_from_left.translation.x(), -0.1);
 }
 
+// The files written out in the documentation: what they show can be copied.
+TEST(Calibration, DocumentedFilesAreRead) {
+  const fs::path file = fs::path(SPSLAM_TEST_DATA).parent_path().parent_path() / "docs" / "RECORDINGS.md";
+  const std::string page = read_text_file(file), begin = "```yaml\n";
+  std::vector<StereoCalibration> calibrations;
+  for (std::size_t at = 0; (at = page.find(begin, at)) != std::string::npos;) {
+    at += begin.size();
+    calibrations.push_back(parse_calibration_yaml(page.substr(at, page.find("```", at) - at), "page"));
+  }
+  ASSERT_EQ(calibrations.size(), 2u);
+  EXPECT_EQ(calibrations[0].rig.baseline, 0.08);
+  ASSERT_TRUE(calibrations[1].raw);
+  EXPECT_NEAR(Rectifier(*calibrations[1].raw).rig().baseline, 0.11, 0.001);
+}
+
 TEST(Calibration, EurocSensor) {
   const EurocSensor sensor = parse_euroc_sensor(euroc_sensor_text(0.08), "s");
   EXPECT_EQ(sensor.camera.width, 64);

@@ -13,6 +13,8 @@
 //   baseline: 0.08    # m              right_from_left: [16 or 12 numbers, the matrix row by row, m]
 // Models: pinhole (no distortion), radtan (k1 k2 p1 p2 [k3 ...]), equidistant (k1 k2 k3 k4).
 //
+// docs/RECORDINGS.md has all keys.
+//
 // Every parser takes the text and a name for messages and throws InputError only.
 #pragma once
 
