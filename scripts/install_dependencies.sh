@@ -7,8 +7,8 @@
 set -euo pipefail
 
 packages=(
-  build-essential cmake ninja-build libopencv-dev libeigen3-dev libtbb-dev libspdlog-dev libfmt-dev zlib1g-dev libyaml-cpp-dev
-  libcli11-dev nlohmann-json3-dev libceres-dev libembree-dev libgtest-dev libgmock-dev libbenchmark-dev
+  build-essential cmake ninja-build libopencv-dev libeigen3-dev libtbb-dev libspdlog-dev libfmt-dev zlib1g-dev libjpeg-dev
+  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libceres-dev libembree-dev libgtest-dev libgmock-dev libbenchmark-dev
 )
 case "${1-}" in
   "") ;;

@@ -229,6 +229,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadRun{"NoSuchFrames", {"--start", "99"}, 2, {"99", "16"}},
                     BadRun{"EmptyRange", {"--start", "5", "--end", "5"}, 2, {"start"}},
                     BadRun{"UnknownFormat", {"--format", "kiti"}, 2, {"kitti"}},
+                    BadRun{"RateOutOfRange", {"--rate", "-1"}, 2, {"--rate", "-1"}},
+                    BadRun{"ToleranceOutOfRange", {"--pair-tolerance", "2"}, 2, {"--pair-tolerance"}},
+                    BadRun{"DepthOutOfRange", {"--bit-depth", "17"}, 2, {"--bit-depth"}},
                     BadRun{"OtherFormat", {"--format", "euroc"}, 1, {"sensor.yaml"}},
                     BadRun{"MissingCalibration", {"--calibration", "none.yaml"}, 1, {"none.yaml"}}),
     [](const testing::TestParamInfo<BadRun>& row) { return row.param.name; });
@@ -237,6 +240,19 @@ TEST_F(Run, MissingDatasetIsAnInputError) {
   const ProcessResult refused = run({}, scratch.path("none"));
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_THAT(refused.err, HasSubstr("does not exist"));
+}
+
+TEST_F(Run, BrokenTruthOfTheFolderIsAWarning) {
+  const std::string dataset = own_scene(), poses = dataset + "/poses.txt";
+  std::ofstream(poses) << "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  const ProcessResult done = run({}, dataset);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("no ground truth"));
+  EXPECT_THAT(result("log.txt"), HasSubstr("1 poses for 16 times"));
+  EXPECT_FALSE(fs::exists(out() + "/metrics.json"));
+  const ProcessResult refused = run({"--overwrite", "--truth", poses}, dataset);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("1 poses for 16 times"));
 }
 
 TEST_F(Run, CalibrationOfAnotherSizeIsAnInputError) {

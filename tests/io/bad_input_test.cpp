@@ -52,13 +52,13 @@ INSTANTIATE_TEST_SUITE_P(
                   {"kitti: image_0/", "euroc: mav0/", "usvinland: PIC_Left", "plain: left/"}},
         BadFolder{"two_formats",
                   [](const fs::path& f) { fs::create_directories(f / "left"); },
-                  {"several formats", "format"}},
+                  {"several formats", "--format"}},
         BadFolder{"half_written",
                   [](const fs::path& f) { write_text_file(f / "INCOMPLETE", ""); },
                   {"half written"}},
         BadFolder{"missing_calibration",
                   [](const fs::path& f) { fs::remove(f / "calib.txt"); },
-                  {"calibration is missing", "calib.txt", "option calibration"}},
+                  {"calibration is missing", "calib.txt", "--calibration"}},
         BadFolder{
             "calibration_without_right",
             [](const fs::path& f) { write_text_file(f / "calib.txt", "P0: 50 0 31 0 0 50 23 0 0 0 1 0\n"); },
@@ -77,6 +77,20 @@ INSTANTIATE_TEST_SUITE_P(
                     write_text_file(f / "calib.txt", format_kitti_calibration(rig));
                   },
                   {"calib.txt", "far from the middle", "another image size"}},
+        BadFolder{"calibration_of_half_the_size",
+                  [](const fs::path& f) {
+                    StereoRig rig = small_rig();
+                    rig.cx = 15.5, rig.cy = 11.5;
+                    write_text_file(f / "calib.txt", format_kitti_calibration(rig));
+                  },
+                  {"calib.txt", "far from the middle", "64 x 48 px", "--calibration", "width and height"}},
+        BadFolder{"calibration_of_half_the_height",
+                  [](const fs::path& f) {
+                    StereoRig rig = small_rig();
+                    rig.cy = 11.5;
+                    write_text_file(f / "calib.txt", format_kitti_calibration(rig));
+                  },
+                  {"far from the middle"}},
         BadFolder{"swapped_eyes",
                   [](const fs::path& f) {
                     StereoRig rig = small_rig();
@@ -102,6 +116,15 @@ INSTANTIATE_TEST_SUITE_P(
                       write_image(f / "image_1" / frame_name(i), noise_image(1, 32, 48));
                   },
                   {"64 x 48 px", "32 x 48 px", "one size"}},
+        BadFolder{"as_many_of_another_size",
+                  [](const fs::path& f) {
+                    for (const char* eye : {"image_0", "image_1"})
+                      for (int i = 0; i < kFrames; i += 2)
+                        write_image(f / eye / frame_name(i), noise_image(1, 32, 24));
+                    fs::resize_file(f / "image_0" / frame_name(2), 0);  // the first five: two against two
+                    fs::resize_file(f / "image_0" / frame_name(5), 0);
+                  },
+                  {"several sizes", "000000.png 32 x 24 px", "000001.png 64 x 48 px", "--calibration"}},
         BadFolder{"no_readable_image",
                   [](const fs::path& f) {
                     for (int i = 0; i < kFrames; ++i) write_text_file(f / "image_0" / frame_name(i), "");
@@ -112,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
                   {"000002.png", "000002.jpg"}},
         BadFolder{"missing_times",
                   [](const fs::path& f) { fs::remove(f / "times.txt"); },
-                  {"times.txt is missing", "rate"}},
+                  {"times.txt is missing", "--rate"}},
         BadFolder{"fewer_times", [](const fs::path& f) { times(f, "0\n0.1\n"); }, {"2 times", "6 frames"}},
         BadFolder{
             "more_times", [](const fs::path& f) { times(f, times_text() + "0.6\n0.7\n0.8\n"); }, {"9 times"}},
@@ -127,10 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
                   {"times.txt:3", "'noon' is not a number"}},
         BadFolder{"time_is_nan",
                   [](const fs::path& f) { times(f, "0\n0.1\nnan\n0.3\n0.4\n0.5\n"); },
-                  {"times.txt:3", "not finite"}},
-        BadFolder{"truth_of_another_length",
-                  [](const fs::path& f) { write_text_file(f / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"); },
-                  {"poses.txt", "1 poses for 6 times"}}),
+                  {"times.txt:3", "not finite"}}),
     [](const testing::TestParamInfo<BadFolder>& row) { return std::string(row.param.name); });
 
 struct BadFrame {
@@ -209,6 +229,20 @@ TEST(BadInput, FirstPairUnreadable) {
   EXPECT_EQ(dataset->load(1).problem, "");
 }
 
+// The size is the calibration's, or that of most of the first pairs.
+TEST(BadInput, FirstPairOfAnotherSize) {
+  for (const bool stated : {false, true}) {
+    const TemporaryFolder folder;
+    stated ? write_plain(folder.path()) : write_kitti(folder.path());
+    for (const char* eye : {stated ? "left" : "image_0", stated ? "right" : "image_1"})
+      write_image(folder.path() / eye / frame_name(0), noise_image(1, 32, 24));
+    const std::unique_ptr<Dataset> dataset = open_dataset(folder.path());
+    EXPECT_EQ(dataset->rig().width, kWidth);
+    EXPECT_THAT(dataset->load(0).problem, HasSubstr("32 x 24 px instead of 64 x 48 px"));
+    for (int i = 1; i < kFrames; ++i) EXPECT_EQ(dataset->load(i).problem, "");
+  }
+}
+
 TEST(BadInput, PairMissingInBothEyes) {
   const TemporaryFolder folder;
   write_kitti(folder.path());
@@ -240,6 +274,75 @@ TEST(BadInput, YamlCalibrationOfAnotherSize) {
   write_text_file(folder.path() / "calibration.yaml", format_calibration_yaml(rig));
   EXPECT_THAT(message_of([&] { open_dataset(folder.path()); }),
               AllOf(HasSubstr("640 x 320 px"), HasSubstr("64 x 48 px"), HasSubstr("calibration.yaml")));
+}
+
+TEST(BadInput, EurocCalibrationOfAnotherSize) {
+  const TemporaryFolder folder;
+  write_euroc(folder.path());
+  const auto shrink = [&](const char* camera) {
+    const fs::path file = folder.path() / "mav0" / camera / "sensor.yaml";
+    std::string text = read_text_file(file);
+    text.replace(text.find("[64, 48]"), 8, "[60, 44]");
+    write_text_file(file, text);
+  };
+  shrink("cam1");
+  EXPECT_THAT(message_of([&] { open_dataset(folder.path()); }),
+              AllOf(HasSubstr("cam0/sensor.yaml"), HasSubstr("cam1/sensor.yaml"), HasSubstr("differ in size"),
+                    HasSubstr("64 x 48 px"), HasSubstr("60 x 44 px")));
+  shrink("cam0");
+  EXPECT_THAT(message_of([&] { open_dataset(folder.path()); }),
+              AllOf(HasSubstr("cam0/sensor.yaml is for images of 60 x 44 px"), HasSubstr("64 x 48 px")));
+}
+
+// A run needs no truth: what came with the folder may be broken, what was asked for may not.
+TEST(BadInput, BrokenTruth) {
+  const auto without_truth = [](const fs::path& folder, const std::vector<std::string>& parts) {
+    const std::unique_ptr<Dataset> dataset = open_dataset(folder);
+    EXPECT_FALSE(dataset->ground_truth());
+    EXPECT_EQ(dataset->load(1).problem, "");
+    ASSERT_EQ(dataset->warnings().size(), 1u);
+    for (const std::string& part : parts) EXPECT_THAT(dataset->warnings()[0], HasSubstr(part));
+  };
+  const char* unsorted = "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n";
+  const TemporaryFolder folder;
+  write_plain(folder.path());
+  write_text_file(folder.path() / "groundtruth.txt", unsorted);
+  without_truth(folder.path(), {"no ground truth", "groundtruth.txt:2"});
+  write_text_file(folder.path() / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  without_truth(folder.path(), {"poses.txt", "1 poses for 6 times"});
+  DatasetOptions options;
+  options.truth = folder.write("mine.txt", unsorted);
+  EXPECT_THAT(message_of([&] { open_dataset(folder.path(), options); }), HasSubstr("mine.txt:2"));
+  options.truth = folder.path("none.txt");
+  EXPECT_THAT(message_of([&] { open_dataset(folder.path(), options); }), HasSubstr("does not exist"));
+  options.truth = folder.write("mine.txt", "0 0 0 0 0 0 0 1\n0.5 7 0 0 0 0 0 1\n");
+  const std::unique_ptr<Dataset> dataset = open_dataset(folder.path(), options);
+  EXPECT_EQ(dataset->ground_truth()->at(1).world_from_camera.translation.x(), 7);
+  EXPECT_TRUE(dataset->warnings().empty());
+}
+
+TEST(BadInput, ImplausibleUnitsAreWarnings) {
+  const TemporaryFolder folder;
+  write_plain(folder.path());
+  EXPECT_TRUE(open_dataset(folder.path())->warnings().empty());
+  std::string milliseconds, sparse;
+  for (int i = 0; i < kFrames; ++i) milliseconds += std::to_string(33 * i) + "\n";
+  times(folder.path(), milliseconds);
+  EXPECT_THAT(open_dataset(folder.path())->warnings(),
+              testing::ElementsAre(AllOf(HasSubstr("33 s"), HasSubstr("times in seconds?"))));
+  DatasetOptions options;
+  options.rate = 1000;  // fast, but there are such cameras
+  EXPECT_TRUE(open_dataset(folder.path(), options)->warnings().empty());
+  std::string hours;
+  for (int i = 0; i < kFrames; ++i) hours += fixed_text(i / 72000.0, 9) + "\n";
+  times(folder.path(), hours);
+  StereoRig rig = small_rig();
+  rig.baseline = 80;
+  write_text_file(folder.path() / "calibration.yaml", format_calibration_yaml(rig));
+  EXPECT_THAT(
+      open_dataset(folder.path())->warnings(),
+      testing::ElementsAre(HasSubstr("times in seconds?"),
+                           AllOf(HasSubstr("calibration.yaml"), HasSubstr("80 m; is it in metres?"))));
 }
 
 TEST(BadInput, OptionsOutOfRange) {

@@ -12,6 +12,7 @@ namespace spslam {
 namespace {
 
 using namespace test;
+using testing::AllOf;
 using testing::HasSubstr;
 
 void expect_all_frames(const Dataset& dataset) {
@@ -57,6 +58,58 @@ TEST(Dataset, KittiTruthInThePosesFolder) {
     ASSERT_TRUE(dataset->ground_truth());
     EXPECT_DOUBLE_EQ(dataset->ground_truth()->at(4).timestamp, 0.4);
     EXPECT_DOUBLE_EQ(dataset->ground_truth()->at(4).world_from_camera.translation.z(), 4);
+  }
+}
+
+std::string projection(const std::string& name, double x) {  // of a camera at x m of the reference
+  return name + ": 50 0 31.5 " + fixed_text(-50 * x, 6) + " 0 50 23.5 0 0 0 1 0\n";
+}
+
+TEST(Dataset, KittiInColour) {
+  const TemporaryFolder folder;
+  write_kitti(folder.path());
+  fs::rename(folder.path() / "image_0", folder.path() / "image_2");
+  fs::rename(folder.path() / "image_1", folder.path() / "image_3");
+  write_text_file(folder.path() / "calib.txt", projection("P0", 0) + projection("P1", 0.5) +
+                                                   projection("P2", -0.06) + projection("P3", 0.02));
+  std::string poses;
+  for (int i = 0; i < kFrames; ++i) poses += "0 0 1 0 0 1 0 0 -1 0 0 0\n";  // heads along x
+  write_text_file(folder.path() / "poses.txt", poses);
+  const std::unique_ptr<Dataset> dataset = open_dataset(folder.path());
+  expect_all_frames(*dataset);
+  expect_small_rig(dataset->rig());
+  EXPECT_LT(
+      (dataset->ground_truth()->at(2).world_from_camera.translation - Eigen::Vector3d(0, 0, 0.06)).norm(),
+      1e-9)
+      << "the truth is of camera 0, camera 2 stands 0.06 m to its left";
+}
+
+TEST(Dataset, KittiRaw) {
+  for (const bool colour : {false, true}) {
+    const TemporaryFolder folder;
+    const fs::path drive = folder.path() / "2011_09_26" / "2011_09_26_drive_0001_sync";
+    const fs::path left = drive / (colour ? "image_02" : "image_00"),
+                   right = drive / (colour ? "image_03" : "image_01");
+    std::string times;
+    for (int i = 0; i < kFrames; ++i) {
+      write_image(left / "data" / ("0000" + frame_name(i)), left_image(i));
+      write_image(right / "data" / ("0000" + frame_name(i)), right_image(i));
+      times += "2011-09-26 23:59:59." + std::to_string(100000000 * (i + 3)) + "\n";
+    }
+    write_text_file(left / "timestamps.txt", times);
+    std::string calibration = "calib_time: 09-Jan-2012 13:57:47\n";
+    for (const std::string camera : {"00", "01", "02", "03"})
+      calibration += "S_rect_" + camera + ": 6.4e+01 4.8e+01\n" +
+                     projection("P_rect_" + camera, camera == "01" || camera == "03" ? 0.08 : 0);
+    write_text_file(folder.path() / "2011_09_26" / "calib_cam_to_cam.txt", calibration);
+    const std::unique_ptr<Dataset> dataset = open_dataset(drive);
+    expect_all_frames(*dataset);
+    expect_small_rig(dataset->rig());
+    EXPECT_NEAR(dataset->timestamp(0), 1317081599.3, 1e-6);
+    EXPECT_NEAR(dataset->timestamp(5) - dataset->timestamp(0), 0.5, 1e-6);
+    EXPECT_THAT(dataset->description(), HasSubstr("(kitti-raw)"));
+    for (const fs::path& eye : {left, right}) fs::remove(eye / "data" / ("0000" + frame_name(2)));
+    EXPECT_THAT(open_dataset(drive / "")->load(2).problem, HasSubstr("file is missing"));
   }
 }
 
@@ -163,7 +216,7 @@ TEST(Dataset, EurocUnpairedImagesAreCounted) {
   DatasetOptions options;
   options.pair_tolerance = 0.0005;
   EXPECT_THAT(message_of([&] { open_dataset(folder.path(), options); }),
-              HasSubstr("none of 6 left and 5 right"));
+              AllOf(HasSubstr("none of 6 left and 5 right"), HasSubstr("--pair-tolerance")));
   options.pair_tolerance = 0.02;
   EXPECT_EQ(open_dataset(folder.path(), options)->size(), 5);
 }

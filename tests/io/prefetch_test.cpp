@@ -31,6 +31,7 @@ class CountingDataset : public Dataset {
   bool planar_ground_truth() const override { return false; }
   int unpaired() const override { return 0; }
   std::string description() const override { return "counting"; }
+  const std::vector<std::string>& warnings() const override { return warnings_; }
 
   mutable std::atomic<int> loaded = 0;
 
@@ -38,6 +39,7 @@ class CountingDataset : public Dataset {
   int size_, bad_;
   StereoRig rig_;
   std::optional<Trajectory> truth_;
+  std::vector<std::string> warnings_;
 };
 
 std::vector<int> indices(Prefetcher& frames) {

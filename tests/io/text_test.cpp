@@ -53,6 +53,20 @@ TEST(Text, FilesThatCannotBe) {
   EXPECT_EQ(read_text_file(folder.path() / "file"), "a\r\nb");
 }
 
+TEST(Text, TimesAreSecondsOrDates) {
+  EXPECT_THAT(parse_times("0.5\n1.5\n", "t"), testing::ElementsAre(0.5, 1.5));
+  const std::vector<double> dates =
+      parse_times("1970-01-02 00:00:01.5\r\n2011-09-26 13:02:25.964389445\n2012-02-29 23:59:60\n", "t");
+  ASSERT_EQ(dates.size(), 3u);
+  EXPECT_DOUBLE_EQ(dates[0], 86401.5);
+  EXPECT_NEAR(dates[1], 1317042145.964389, 1e-6);
+  EXPECT_DOUBLE_EQ(dates[2], 1330560000);
+  for (const char* wrong :
+       {"2011-09-31 00:00:00", "2011-09-26 24:00:00", "2011-09-26 00:60:00", "2011-13-01 00:00:00",
+        "2011-09-26 00:00:61", "2011-09-26 00:00", "26.9.2011 00:00:00", "2011-09-26 a:0:0", "1 2"})
+    EXPECT_THROW(parse_times(wrong, "t"), InputError) << wrong;
+}
+
 TEST(Text, WordsInMessagesAreShortAndPrintable) {
   EXPECT_EQ(in_quotes("a\x01z\xff"), "'a?z?'");
   EXPECT_EQ(in_quotes(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");

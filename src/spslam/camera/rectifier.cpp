@@ -126,7 +126,10 @@ void make_maps(const RawCamera& camera, const cv::Mat& rotation, const cv::Mat& 
 void RawStereo::check() const {
   check_camera(left, "left");
   check_camera(right, "right");
-  require(left.width == right.width && left.height == right.height, "the two images differ in size");
+  require(left.width == right.width && left.height == right.height,
+          "the two images differ in size: the left one is " + std::to_string(left.width) + " x " +
+              std::to_string(left.height) + " px, the right one " + std::to_string(right.width) + " x " +
+              std::to_string(right.height) + " px");
   require((left.lens == LensModel::kEquidistant) == (right.lens == LensModel::kEquidistant),
           "one lens is equidistant and the other is not; both eyes must have the same kind");
   require(right_from_left.is_finite(), "right_from_left holds a number that is not finite");

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "spslam/cli/commands.h"
+#include "spslam/cli/reading_options.h"
 #include "spslam/cli/run_folder.h"
 #include "spslam/cli/run_options.h"
 #include "spslam/cli/run_samples.h"
@@ -197,6 +198,7 @@ int run_dataset(const RunArguments& arguments) {
                                   "; spslam run --config reads this file\n" + to_yaml(options));
   spdlog::info("spslam " SPSLAM_VERSION ", preset {}", preset_name(arguments.options.preset));
   spdlog::info("{}", dataset->description());
+  log_warnings(*dataset);
   watch_for_interruption();
   RunRecord record;
   const std::exception_ptr failure = track_frames(arguments, *dataset, frames, slam, record);
@@ -218,17 +220,7 @@ int run_dataset(const RunArguments& arguments) {
   return 128 + signal;
 }
 
-void add_reading_options(CLI::App& command, RunArguments& arguments) {
-  DatasetOptions& reading = arguments.reading;
-  command
-      .add_option("--format", reading.format,
-                  "Format of the folder: auto (default), kitti, euroc, usvinland or plain")
-      ->transform(enum_names<DatasetFormat>())
-      ->type_name("FORMAT");
-  command.add_option("--calibration", reading.calibration, "Calibration file instead of the folder's own")
-      ->type_name("FILE");
-  command.add_option("--rate", reading.rate, "Frames per second instead of the folder's times")
-      ->type_name("HZ");
+void add_range_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--start", arguments.start, "First frame, from 0")->type_name("INDEX");
   command.add_option("--end", arguments.end, "The frame before which to stop; the last unless given")
       ->type_name("INDEX");
@@ -247,7 +239,8 @@ void add_run(CLI::App& app, Command& chosen) {
       ->required()
       ->type_name("DIR");
   add_option_arguments(*command, arguments->options);
-  add_reading_options(*command, *arguments);
+  add_reading_options(*command, arguments->reading);
+  add_range_options(*command, *arguments);
   command->add_option("--save-map", arguments->save_map, "File for the map, at the end of the run")
       ->type_name("FILE");
   command

@@ -11,6 +11,7 @@
 
 #include "spslam/base/error.h"
 #include "spslam/cli/commands.h"
+#include "spslam/cli/reading_options.h"
 #include "spslam/features/orb_extractor.h"
 #include "spslam/io/dataset.h"
 #include "spslam/io/text.h"
@@ -25,6 +26,7 @@ constexpr const char* kBuiltIn = "built-in";
 
 struct ImageArguments {
   std::vector<std::string> datasets;
+  DatasetOptions reading;
   int every = 1, features = 1000;
 };
 
@@ -74,7 +76,8 @@ int train(const TrainArguments& arguments) {
   std::vector<std::vector<Descriptor>> images;
   std::size_t descriptors = 0;
   for (const std::string& folder : arguments.images.datasets) {
-    const std::unique_ptr<Dataset> dataset = open_dataset(folder);
+    const std::unique_ptr<Dataset> dataset = open_dataset(folder, arguments.images.reading);
+    log_warnings(*dataset);
     for_each_image(*dataset, arguments.images, [&](int, std::vector<Descriptor> found) {
       descriptors += found.size();
       images.push_back(std::move(found));
@@ -125,7 +128,8 @@ SE3 world_from_first_camera(const fs::path& folder) {
 }
 
 std::vector<PlaceView> load_views(const std::string& folder, const ImageArguments& arguments) {
-  const std::unique_ptr<Dataset> dataset = open_dataset(folder);
+  const std::unique_ptr<Dataset> dataset = open_dataset(folder, arguments.reading);
+  log_warnings(*dataset);
   if (!dataset->ground_truth())
     throw InputError(folder +
                      " has no poses; recall can be measured where it is known what is seen from where");
@@ -168,6 +172,7 @@ int recall(const RecallArguments& arguments) {
 void add_images(CLI::App& command, ImageArguments& arguments) {
   command.add_option("DATASETS", arguments.datasets, "Folders of sequences; left images are used")
       ->required();
+  add_reading_options(command, arguments.reading);
   command.add_option("--every", arguments.every, "Use one frame of so many")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -15,24 +15,74 @@ namespace {
 
 using Projection = std::array<double, 12>;  // 3x4, row by row
 
+// What a KITTI file says of one camera.
+struct KittiCamera {
+  std::string name;  // "P0", "P_rect_00"
+  std::optional<Projection> projection;
+  std::optional<std::array<double, 2>> size;  // px
+};
+
 // Both cameras must be one rectified pair: StereoRig has one focal length and one principal point.
-StereoRig rig_of_projections(const Projection& left, const Projection& right, const std::string& name) {
-  const auto same = [&](int index, const char* what) {
+void check_same(const Projection& left, const Projection& right, const std::string& names,
+                const std::string& file) {
+  const auto same = [&](std::size_t index, const char* what, const char* advice) {
     if (!(std::abs(left[index] - right[index]) <= 1e-3))
-      throw InputError(name + ": " + what + " differs between P0 and P1 (" + fixed_text(left[index], 4) +
-                       " and " + fixed_text(right[index], 4) +
-                       " px), the pair is not rectified; give a calibration of rectified images");
+      throw InputError(file + ": " + what + " differs between " + names + ": " + fixed_text(left[index], 4) +
+                       " and " + fixed_text(right[index], 4) + " px; " + advice);
   };
-  same(0, "fx"), same(5, "fy"), same(2, "cx"), same(6, "cy");
+  const char* unrectified = "the images of a rectified pair have one; give a calibration of rectified images";
+  same(0, "fx", unrectified), same(5, "fy", unrectified);
+  same(2, "cx",
+       "both must be the same: rectify so that the disparity at infinity is 0 (CALIB_ZERO_DISPARITY in "
+       "OpenCV)");
+  same(6, "cy", "rows of the two images must correspond; give a calibration of rectified images");
+}
+
+StereoRig rig_of_cameras(const KittiCamera& left_camera, const KittiCamera& right_camera,
+                         const std::string& file) {
+  const Projection &left = *left_camera.projection, &right = *right_camera.projection;
+  const std::string names = left_camera.name + " and " + right_camera.name;
+  check_same(left, right, names, file);
   if (!(left[0] > 0))
-    throw InputError(name + ": fx in P0 must be positive, is " + fixed_text(left[0], 4) + " px");
+    throw InputError(file + ": fx in " + left_camera.name + " must be positive, is " +
+                     fixed_text(left[0], 4) + " px");
   StereoRig rig;
   rig.fx = left[0], rig.fy = left[5], rig.cx = left[2], rig.cy = left[6];
   rig.baseline = (left[3] - right[3]) / left[0];
   if (!(rig.baseline > 0))
-    throw InputError(name + ": the baseline from P0 and P1 is " + fixed_text(rig.baseline, 6) +
+    throw InputError(file + ": the baseline from " + names + " is " + fixed_text(rig.baseline, 6) +
                      " m and must be positive; are the eyes swapped?");
+  if (left_camera.size)
+    rig.width = static_cast<int>((*left_camera.size)[0]),
+    rig.height = static_cast<int>((*left_camera.size)[1]);
   return rig;
+}
+
+// The last column of a projection is K times the reference camera's origin in this camera.
+SE3 reference_from(const Projection& p) {
+  const double z = p[11], x = (p[3] - p[2] * z) / p[0], y = (p[7] - p[6] * z) / p[5];
+  return {Eigen::Matrix3d::Identity(), -Eigen::Vector3d(x, y, z)};
+}
+
+// Takes a line of the camera; false if it is about something else. P0: and P_rect_00: are projections,
+// S_rect_00: a size.
+bool take_line(const LineReader& reader, int number, KittiCamera& camera) {
+  const std::vector<std::string_view> words = reader.fields();
+  const std::string digit = std::to_string(number);
+  const auto take = [&](auto& value, const char* what) {
+    if (value) reader.fail(in_quotes(words[0]) + " is given twice; remove one");
+    value.emplace();
+    if (words.size() != value->size() + 1)
+      reader.fail("has " + std::to_string(words.size() - 1) + " numbers, a " + what + " has " +
+                  std::to_string(value->size()));
+    for (std::size_t i = 0; i < value->size(); ++i) (*value)[i] = reader.real(words[i + 1]);
+    return true;
+  };
+  if (words[0] == "P" + digit + ":" || words[0] == "P_rect_0" + digit + ":") {
+    camera.name = words[0].substr(0, words[0].size() - 1);
+    return take(camera.projection, "projection");
+  }
+  return words[0] == "S_rect_0" + digit + ":" && take(camera.size, "size");
 }
 
 SE3 rigid(const YamlMap& map, const std::string& key) {
@@ -101,23 +151,21 @@ auto with_name(const std::string& name, F f) {
 
 }  // namespace
 
-StereoRig parse_kitti_calibration(std::string_view text, const std::string& name) {
-  std::optional<Projection> projections[2];
-  for (LineReader reader(text, name); reader.next();) {
-    const std::vector<std::string_view> words = reader.fields();
-    if (words[0] != "P0:" && words[0] != "P1:") continue;  // P2, P3, Tr and dates of other uses
-    std::optional<Projection>& projection = projections[words[0] == "P1:" ? 1 : 0];
-    if (projection) reader.fail(in_quotes(words[0]) + " is given twice; remove one");
-    if (words.size() != 13)
-      reader.fail("has " + std::to_string(words.size() - 1) + " numbers, a projection has 12");
-    projection.emplace();
-    for (std::size_t i = 0; i < 12; ++i) (*projection)[i] = reader.real(words[i + 1]);
-  }
-  for (const int eye : {0, 1})
-    if (!projections[eye])
-      throw InputError(name + ": has no line 'P" + std::to_string(eye) +
-                       ":'; P0 (left) and P1 (right) are needed");
-  return rig_of_projections(*projections[0], *projections[1], name);
+StereoCalibration parse_kitti_calibration(std::string_view text, const std::string& name, KittiPair pair) {
+  const int first = static_cast<int>(pair);
+  KittiCamera left, right;
+  for (LineReader reader(text, name); reader.next();)  // the other cameras, Tr and dates are of other uses
+    if (!take_line(reader, first, left)) take_line(reader, first + 1, right);
+  for (const int number : {first, first + 1})
+    if (const KittiCamera& camera = number == first ? left : right; !camera.projection)
+      throw InputError(name + ": has no line 'P" + std::to_string(number) + ":' (or 'P_rect_0" +
+                       std::to_string(number) + ":'); the projections of both eyes are needed");
+  for (const std::optional<std::array<double, 2>>& size : {left.size, right.size})
+    if (size &&
+        (!((*size)[0] >= 2 && (*size)[0] < 1e5 && (*size)[1] >= 2 && (*size)[1] < 1e5) || size != left.size))
+      throw InputError(name + ": S_rect_0" + std::to_string(first) + " and S_rect_0" +
+                       std::to_string(first + 1) + " must be one image size, width and height in px");
+  return {rig_of_cameras(left, right, name), std::nullopt, reference_from(*left.projection)};
 }
 
 StereoCalibration parse_calibration_yaml(std::string_view text, const std::string& name) {
@@ -153,9 +201,9 @@ EurocSensor parse_euroc_sensor(std::string_view text, const std::string& name) {
   return sensor;
 }
 
-StereoCalibration read_calibration(const std::filesystem::path& path) {
+StereoCalibration read_calibration(const std::filesystem::path& path, KittiPair pair) {
   const std::string text = read_text_file(path);
-  if (path.extension() == ".txt") return {parse_kitti_calibration(text, path.string()), std::nullopt};
+  if (path.extension() == ".txt") return parse_kitti_calibration(text, path.string(), pair);
   return parse_calibration_yaml(text, path.string());
 }
 

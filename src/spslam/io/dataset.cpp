@@ -12,7 +12,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kNeeds =
-    "\n  kitti: image_0/, image_1/, calib.txt, times.txt"
+    "\n  kitti: image_0/, image_1/ (or image_2/, image_3/), calib.txt, times.txt"
+    "\n  kitti-raw: image_00/, image_01/ (or image_02/, image_03/), each with data/, timestamps.txt; "
+    "calib_cam_to_cam.txt here or in the folder above"
     "\n  euroc: mav0/cam0/ and mav0/cam1/, each with data/, data.csv, sensor.yaml"
     "\n  usvinland: PIC_Left_Rectified/, PIC_Right_Rectified/, Stereo_Timestamp.txt, calibration.yaml"
     "\n  plain: left/, right/, calibration.yaml, times.txt (or a rate)";
@@ -30,7 +32,7 @@ void require_whole_folder(const fs::path& folder) {
 }  // namespace
 
 std::span<const char* const> option_names(DatasetFormat) {
-  static constexpr const char* names[] = {"auto", "kitti", "euroc", "usvinland", "plain"};
+  static constexpr const char* names[] = {"auto", "kitti", "kitti-raw", "euroc", "usvinland", "plain"};
   return names;
 }
 
@@ -41,7 +43,8 @@ DatasetFormat recognise_dataset(const fs::path& folder) {
     return false;
   };
   std::vector<DatasetFormat> fitting;
-  if (any_of({"image_0", "image_1"})) fitting.push_back(DatasetFormat::kKitti);
+  if (any_of({"image_0", "image_1", "image_2", "image_3"})) fitting.push_back(DatasetFormat::kKitti);
+  if (any_of({"image_00", "image_01", "image_02", "image_03"})) fitting.push_back(DatasetFormat::kKittiRaw);
   if (any_of({"mav0", "cam0/data.csv"})) fitting.push_back(DatasetFormat::kEuroc);
   if (any_of({"PIC_Left", "PIC_Left_Rectified"})) fitting.push_back(DatasetFormat::kUsvinland);
   if (any_of({"left", "right"})) fitting.push_back(DatasetFormat::kPlain);
@@ -49,7 +52,7 @@ DatasetFormat recognise_dataset(const fs::path& folder) {
   if (fitting.empty())
     throw InputError(folder.string() +
                      " is no sequence that is known; the formats and what each needs:" + kNeeds);
-  throw InputError(folder.string() + " fits several formats; say which with the option format:" + kNeeds);
+  throw InputError(folder.string() + " fits several formats; say which with --format:" + kNeeds);
 }
 
 std::unique_ptr<Dataset> open_dataset(const fs::path& folder, const DatasetOptions& options) {
@@ -57,6 +60,8 @@ std::unique_ptr<Dataset> open_dataset(const fs::path& folder, const DatasetOptio
   require_whole_folder(folder);
   const auto sequence = [&]() -> ImageSequence {
     switch (options.format == DatasetFormat::kAuto ? recognise_dataset(folder) : options.format) {
+      case DatasetFormat::kKittiRaw:
+        return find_kitti_raw(folder, options);
       case DatasetFormat::kEuroc:
         return find_euroc(folder, options);
       case DatasetFormat::kUsvinland:

@@ -6,13 +6,16 @@
 //   for (Prefetcher frames(*dataset); const auto frame = frames.next();) slam.track(frame->pair);
 //
 // Formats (docs of each at its reader, *_dataset.cpp):
-//   kitti      image_0/, image_1/, calib.txt, times.txt; truth in poses.txt or ../../poses/NN.txt
-//   euroc      mav0/cam0|cam1/{data.csv, data/, sensor.yaml}; rectified on loading; truth in
-//   mav0/state_groundtruth_estimate0/data.csv usvinland  PIC_Left_Rectified/, PIC_Right_Rectified/ (or
-//   PIC_Left/, PIC_Right/ with a raw calibration), Stereo_Timestamp.txt, calibration.yaml;
-//              truth in GPSBase.csv (planar)
-//   plain      left/, right/, calibration.yaml, times.txt or a rate; truth in poses.txt (KITTI) or
-//   groundtruth.txt (TUM)
+//   kitti      image_0/, image_1/ (or, without them, image_2/, image_3/), calib.txt, times.txt;
+//              truth in poses.txt or ../../poses/NN.txt
+//   kitti-raw  image_00/, image_01/ (or image_02/, image_03/), each with data/ and timestamps.txt;
+//              calib_cam_to_cam.txt here or in the folder above
+//   euroc      mav0/cam0|cam1/{data.csv, data/, sensor.yaml}; rectified on loading;
+//              truth in mav0/state_groundtruth_estimate0/data.csv
+//   usvinland  PIC_Left_Rectified/, PIC_Right_Rectified/ (or PIC_Left/, PIC_Right/ with a raw calibration),
+//              Stereo_Timestamp.txt, calibration.yaml; truth in GPSBase.csv (planar)
+//   plain      left/, right/, calibration.yaml, times.txt or a rate;
+//              truth in poses.txt (KITTI) or groundtruth.txt (TUM)
 #pragma once
 
 #include <filesystem>
@@ -20,6 +23,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "spslam/base/options.h"
 #include "spslam/camera/stereo_frame.h"
@@ -28,26 +32,34 @@
 
 namespace spslam {
 
-enum class DatasetFormat { kAuto, kKitti, kEuroc, kUsvinland, kPlain };
+enum class DatasetFormat { kAuto, kKitti, kKittiRaw, kEuroc, kUsvinland, kPlain };
 std::span<const char* const> option_names(DatasetFormat);
 
+// Messages call them by their names on the command line: --format, --pair-tolerance, ...
 struct DatasetOptions {
   DatasetFormat format = DatasetFormat::kAuto;
   std::string calibration;
   double rate = 0;
   double pair_tolerance = 0.003;  // a third of the frame time of a 100 Hz camera
   int bit_depth = 0;
+  std::string truth;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit(self.format, {"format", "", "folder format; auto recognises it"});
+    visit(self.format, {"format", "",
+                        "format of the folder: auto (default), kitti, kitti-raw, euroc, usvinland or plain"});
     visit(self.calibration,
-          {"calibration", "", "calibration file instead of the folder's own (YAML, or KITTI .txt)"});
-    visit(self.rate, {"rate", "Hz", "frames per second instead of a times file; 0 = use the file", 0, 1000});
+          {"calibration", "",
+           "calibration file instead of the folder's own: YAML, or KITTI's if it ends in .txt"});
+    visit(self.rate,
+          {"rate", "Hz", "frames per second instead of the folder's times; 0: its times", 0, 1000});
     visit(self.pair_tolerance,
-          {"pair_tolerance", "s", "largest time between left and right of a pair (euroc)", 0, 1});
+          {"pair_tolerance", "s", "largest time between left and right of a pair in EuRoC's folders", 0, 1});
     visit(self.bit_depth,
-          {"bit_depth", "bit", "used bits of 16 bit images; 0 = measured on the sequence", 0, 16});
+          {"bit_depth", "bit", "used bits of 16 bit images, all above is white; 0: measured", 0, 16});
+    visit(self.truth, {"truth", "",
+                       "true trajectory instead of the folder's own: TUM's, KITTI's (a row a frame), EuRoC's "
+                       "or USVInland's"});
   }
 };
 
@@ -67,6 +79,8 @@ class Dataset {
   virtual bool planar_ground_truth() const = 0;  // two dimensions and a heading only (GNSS of a boat)
   virtual int unpaired() const = 0;             // images left out because the other eye has none of that time
   virtual std::string description() const = 0;  // one line for people
+  // What does not look right but may be so, a sentence each; whoever opens a data set for people logs them.
+  virtual const std::vector<std::string>& warnings() const = 0;
 };
 
 // Opens a folder and checks at once whatever is cheap to check: that the images of both eyes and the times

@@ -26,6 +26,18 @@ EurocSensor read_sensor(const fs::path& file) {
   return parse_euroc_sensor(read_text_file(file), file.string());
 }
 
+// The errors of a pair name both of its files.
+RawStereo raw_pair(const EurocSensor& left, const EurocSensor& right, const fs::path& left_file,
+                   const fs::path& right_file) {
+  const RawStereo raw{left.camera, right.camera, right.body_from_camera.inverse() * left.body_from_camera};
+  try {
+    raw.check();
+  } catch (const InputError& error) {
+    throw InputError(left_file.string() + ", " + right_file.string() + ": " + error.what());
+  }
+  return raw;
+}
+
 std::vector<EurocImage> read_images(const fs::path& file) {
   if (!fs::exists(file)) throw InputError(file.string() + " is missing; it lists `t_ns,filename` of one eye");
   std::vector<EurocImage> images = parse_euroc_images(read_text_file(file), file.string());
@@ -41,7 +53,7 @@ void find_pairs(ImageSequence& sequence, const fs::path& root, const DatasetOpti
     throw InputError(root.string() + ": none of " + std::to_string(left.size()) + " left and " +
                      std::to_string(right.size()) + " right images are within " +
                      fixed_text(options.pair_tolerance, 6) +
-                     " s of each other; are both of one recording? pair_tolerance sets the limit");
+                     " s of each other; are both of one recording? --pair-tolerance sets the limit");
   for (const auto& [l, r] : pairs) {
     sequence.times.push_back(static_cast<double>(left[l].time_ns) * 1e-9);
     sequence.left.push_back(root / "cam0" / "data" / left[l].file);
@@ -94,25 +106,23 @@ std::vector<std::pair<int, int>> pair_by_time(std::span<const EurocImage> left,
 
 ImageSequence find_euroc(const fs::path& folder, const DatasetOptions& options) {
   if (options.rate > 0)
-    throw OptionError("option rate does not go with euroc folders: each image has its time; remove it");
+    throw OptionError("--rate does not go with EuRoC's folders: each image has its time; remove it");
   ImageSequence sequence(DatasetFormat::kEuroc, folder);
   const fs::path root = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
-  SE3 body_from_left;
   if (options.calibration.empty()) {
-    const EurocSensor left = read_sensor(root / "cam0" / "sensor.yaml"),
-                      right = read_sensor(root / "cam1" / "sensor.yaml");
-    body_from_left = left.body_from_camera;
-    sequence.calibration.raw = {left.camera, right.camera,
-                                right.body_from_camera.inverse() * left.body_from_camera};
-    sequence.calibration_file = root / "cam0" / "sensor.yaml";
+    const fs::path left_file = root / "cam0" / "sensor.yaml", right_file = root / "cam1" / "sensor.yaml";
+    const EurocSensor left = read_sensor(left_file);
+    sequence.truth_body_from_left = left.body_from_camera;
+    sequence.calibration.raw = raw_pair(left, read_sensor(right_file), left_file, right_file);
+    sequence.calibration_file = left_file;
   } else {
     find_calibration(sequence, {}, options);
     if (fs::exists(root / "cam0" / "sensor.yaml"))
-      body_from_left = read_sensor(root / "cam0" / "sensor.yaml").body_from_camera;
+      sequence.truth_body_from_left = read_sensor(root / "cam0" / "sensor.yaml").body_from_camera;
   }
   find_pairs(sequence, root, options);
-  if (const fs::path truth = root / "state_groundtruth_estimate0" / "data.csv"; fs::exists(truth))
-    sequence.ground_truth = parse_euroc_ground_truth(read_text_file(truth), truth.string(), body_from_left);
+  const TruthFile truth[] = {{root / "state_groundtruth_estimate0" / "data.csv", TrajectoryFormat::kEuroc}};
+  find_truth(sequence, truth, options);
   return sequence;
 }
 

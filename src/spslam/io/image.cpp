@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "spslam/io/image_formats.h"
+
 namespace spslam {
 namespace {
 
@@ -28,16 +30,29 @@ std::optional<std::vector<char>> read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-// Why these bytes are no whole image, or "". A JPEG ends with its end marker (some cameras pad it), a PNG
-// with IEND.
-std::string container_problem(std::string_view bytes) {
+constexpr std::string_view kJpeg = "\xFF\xD8"sv, kPng = "\x89PNG\r\n\x1A\n"sv;
+
+// A JPEG ends with its end marker; some cameras pad it.
+bool has_jpeg_end(std::string_view bytes) {
   constexpr std::size_t kPadding = 4096;
-  const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kPadding));
-  if (bytes.empty()) return "file is empty";
-  if (bytes.starts_with("\xFF\xD8"sv)) return tail.find("\xFF\xD9"sv) == tail.npos ? "JPEG is truncated" : "";
-  if (bytes.starts_with("\x89PNG\r\n\x1A\n"sv))
-    return tail.find("IEND"sv) == tail.npos ? "PNG is truncated" : "";
-  return "file is neither PNG nor JPEG";
+  return bytes.substr(bytes.size() - std::min(bytes.size(), kPadding)).find("\xFF\xD9"sv) != bytes.npos;
+}
+
+GreyImage decode_png(std::vector<char>& bytes) {
+  if (std::string problem = png_problem({bytes.data(), bytes.size()}); !problem.empty()) return {{}, problem};
+  constexpr int kFlags = cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
+  cv::Mat pixels = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data()), kFlags);
+  if (pixels.type() != CV_8UC1 && pixels.type() != CV_16UC1) pixels.release();
+  return {pixels, pixels.empty() ? "PNG is damaged" : ""};
+}
+
+GreyImage decode_image(std::vector<char>& bytes) {
+  const std::string_view view(bytes.data(), bytes.size());
+  if (view.empty()) return {{}, "file is empty"};
+  if (view.starts_with(kPng)) return decode_png(bytes);
+  if (!view.starts_with(kJpeg)) return {{}, "file is neither PNG nor JPEG"};
+  if (!has_jpeg_end(view)) return {{}, "JPEG is truncated"};
+  return decode_jpeg(view);
 }
 
 }  // namespace
@@ -47,15 +62,8 @@ GreyImage read_grey_raw(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, code)) return {{}, "file is missing"};
   std::optional<std::vector<char>> bytes = read_bytes(path);
   if (!bytes) return {{}, "file cannot be read"};
-  if (std::string problem = container_problem({bytes->data(), bytes->size()}); !problem.empty())
-    return {{}, problem};
-  constexpr int kFlags = cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
   try {
-    cv::Mat pixels =
-        cv::imdecode(cv::Mat(1, static_cast<int>(bytes->size()), CV_8UC1, bytes->data()), kFlags);
-    if (pixels.empty() || (pixels.type() != CV_8UC1 && pixels.type() != CV_16UC1))
-      return {{}, "file is damaged"};
-    return {pixels, ""};
+    return decode_image(*bytes);
   } catch (const cv::Exception&) {  // a header that claims more pixels than OpenCV takes
     return {{}, "file is damaged"};
   }

@@ -16,32 +16,70 @@ std::string size_text(cv::Size size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height) + " px";
 }
 
-struct FirstPair {
+struct ReadablePair {
+  std::size_t index;
   cv::Size size;
-  bool sixteen_bit = false;
-  std::filesystem::path left;
+  bool sixteen_bit;
 };
 
-// The first pair whose images can both be read and are more than a speck.
-FirstPair first_readable_pair(const ImageSequence& sequence) {
+// Nothing, and the reason, unless both images can be read, have one size and are more than a speck.
+std::optional<ReadablePair> read_pair(const ImageSequence& sequence, std::size_t i, std::string& reason) {
   constexpr int kSmallest = 8;  // px
-  constexpr std::size_t kTries = 100;
-  std::string problem;
-  for (std::size_t i = 0; i < std::min(kTries, sequence.left.size()); ++i) {
-    const GreyImage left = read_grey_raw(sequence.left[i]), right = read_grey_raw(sequence.right[i]);
-    if (problem.empty() && !left.problem.empty()) problem = sequence.left[i].string() + ": " + left.problem;
-    if (problem.empty() && !right.problem.empty())
-      problem = sequence.right[i].string() + ": " + right.problem;
-    if (std::min({left.pixels.cols, left.pixels.rows, right.pixels.cols, right.pixels.rows}) < kSmallest)
-      continue;
-    if (left.pixels.size() != right.pixels.size())
-      throw InputError(sequence.left[i].string() + " is " + size_text(left.pixels.size()) + " and " +
-                       sequence.right[i].string() + " is " + size_text(right.pixels.size()) +
-                       "; both eyes must have one size, are these two of one rig?");
-    return {left.pixels.size(), left.pixels.depth() == CV_16U, sequence.left[i]};
+  const GreyImage left = read_grey_raw(sequence.left[i]), right = read_grey_raw(sequence.right[i]);
+  const cv::Size size = left.pixels.size(), right_size = right.pixels.size();
+  if (!left.problem.empty())
+    reason = sequence.left[i].string() + ": " + left.problem;
+  else if (!right.problem.empty())
+    reason = sequence.right[i].string() + ": " + right.problem;
+  else if (size != right_size)
+    reason = sequence.left[i].string() + " is " + size_text(size) + " and " + sequence.right[i].string() +
+             " is " + size_text(right_size) + "; both eyes must have one size, are these two of one rig?";
+  else if (std::min(size.width, size.height) < kSmallest)
+    reason = sequence.left[i].string() + " is only " + size_text(size);
+  else
+    return ReadablePair{i, size, left.pixels.depth() == CV_16U};
+  return std::nullopt;
+}
+
+std::vector<ReadablePair> first_readable_pairs(const ImageSequence& sequence) {
+  constexpr std::size_t kWanted = 5, kTries = 100;
+  std::vector<ReadablePair> pairs;
+  std::string first_reason;
+  for (std::size_t i = 0; i < std::min(kTries, sequence.left.size()) && pairs.size() < kWanted; ++i) {
+    std::string reason;
+    if (const std::optional<ReadablePair> pair = read_pair(sequence, i, reason)) pairs.push_back(*pair);
+    if (first_reason.empty()) first_reason = reason;
   }
-  throw InputError(sequence.folder.string() + ": none of the first pairs can be read" +
-                   (problem.empty() ? " (images are too small)" : " (" + problem + ")"));
+  if (pairs.empty())
+    throw InputError(sequence.folder.string() + ": none of the first pairs can be used (" + first_reason +
+                     ")");
+  return pairs;
+}
+
+// One of the first pairs, of the size that the calibration states or, if it does not, that most of them have:
+// an odd pair in front must not make all others wrong.
+ReadablePair typical_pair(const ImageSequence& sequence, cv::Size stated) {
+  const std::vector<ReadablePair> pairs = first_readable_pairs(sequence);
+  const auto votes = [&](const ReadablePair& pair) {
+    return std::count_if(pairs.begin(), pairs.end(),
+                         [&](const auto& other) { return other.size == pair.size; });
+  };
+  std::string sizes;
+  for (const ReadablePair& pair : pairs) {
+    if (stated.empty() ? 2 * votes(pair) > std::ssize(pairs) : pair.size == stated) return pair;
+    sizes += (sizes.empty() ? "" : ", ") + sequence.left[pair.index].filename().string() + " " +
+             size_text(pair.size);
+  }
+  if (stated.empty())
+    throw InputError(sequence.folder.string() +
+                     ": the first images have several sizes, none of them more "
+                     "than half of the time (" +
+                     sizes +
+                     "); remove those of another size or give a calibration that states the size "
+                     "(--calibration, YAML)");
+  throw InputError(sequence.calibration_file.string() + " is for images of " + size_text(stated) + ", but " +
+                   sequence.left[pairs[0].index].string() + " is " + size_text(pairs[0].size) +
+                   "; give the calibration of this image size (--calibration)");
 }
 
 // One scale for the whole sequence, so that brightness stays comparable: the depth that a few images spread
@@ -59,23 +97,44 @@ int sequence_bit_depth(const ImageSequence& sequence, const DatasetOptions& opti
 }
 
 // KITTI's calibration does not say its image size; a principal point far from the middle is the sign of
-// another one.
+// another one. Rectified images are centred within a few per cent, and twice or half their size would put it
+// at 0.25 or at the edge.
 void check_unstated_size(const StereoRig& rig, const ImageSequence& sequence) {
-  const bool central = rig.cx > 0.2 * rig.width && rig.cx < 0.8 * rig.width && rig.cy > 0.2 * rig.height &&
-                       rig.cy < 0.8 * rig.height;
-  if (!central)
-    throw InputError(sequence.calibration_file.string() + ": the principal point " + fixed_text(rig.cx, 1) +
-                     ", " + fixed_text(rig.cy, 1) + " px is far from the middle of images of " +
-                     size_text({rig.width, rig.height}) + "; is this the calibration of another image size?");
+  const auto central = [](double at, int length) { return at > 0.35 * length && at < 0.65 * length; };
+  if (!central(rig.cx, rig.width) || !central(rig.cy, rig.height))
+    throw InputError(
+        sequence.calibration_file.string() + ": the principal point " + fixed_text(rig.cx, 1) + ", " +
+        fixed_text(rig.cy, 1) + " px is far from the middle of images of " +
+        size_text({rig.width, rig.height}) +
+        "; if this is the calibration of another image size, give the right one (--calibration FILE); if it "
+        "is right, state the size: the same values in a YAML file with width and height");
+}
+
+// Values that are right in another unit: nothing can tell for sure, so they are warnings.
+void check_units(const ImageSequence& sequence, const StereoRig& rig, std::vector<std::string>& warnings) {
+  constexpr double kLongest = 10, kShortest = 0.0005;  // s between frames
+  constexpr double kNarrowest = 0.01, kWidest = 5;     // m
+  if (const std::size_t frames = sequence.times.size(); frames > 1) {
+    const double interval =
+        (sequence.times.back() - sequence.times.front()) / static_cast<double>(frames - 1);
+    if (interval > kLongest || interval < kShortest)
+      warnings.push_back(sequence.folder.string() + ": the mean time between frames is " +
+                         detail::print_double(interval) + " s; are the times in seconds?");
+  }
+  if (rig.baseline < kNarrowest || rig.baseline > kWidest)
+    warnings.push_back(sequence.calibration_file.string() + ": the baseline is " +
+                       detail::print_double(rig.baseline) + " m; is it in metres?");
 }
 
 class ImageDataset final : public Dataset {
  public:
   ImageDataset(ImageSequence sequence, const DatasetOptions& options) : sequence_(std::move(sequence)) {
-    const FirstPair first = first_readable_pair(sequence_);
-    image_size_ = first.size;
-    set_rig(first);
-    bit_depth_ = first.sixteen_bit ? sequence_bit_depth(sequence_, options) : 16;
+    set_rig();
+    const ReadablePair pair = typical_pair(sequence_, {rig_.width, rig_.height});
+    image_size_ = pair.size;
+    if (rig_.width == 0) set_unstated_size(pair.size);
+    check_units(sequence_, rig_, sequence_.warnings);
+    bit_depth_ = pair.sixteen_bit ? sequence_bit_depth(sequence_, options) : 16;
     if (rectifier_ && sequence_.ground_truth && !sequence_.planar_ground_truth)
       for (StampedPose& pose : *sequence_.ground_truth)
         pose.world_from_camera = pose.world_from_camera * rectifier_->raw_left_from_rectified();
@@ -87,6 +146,7 @@ class ImageDataset final : public Dataset {
   const std::optional<Trajectory>& ground_truth() const override { return sequence_.ground_truth; }
   bool planar_ground_truth() const override { return sequence_.planar_ground_truth; }
   int unpaired() const override { return sequence_.unpaired; }
+  const std::vector<std::string>& warnings() const override { return sequence_.warnings; }
 
   StereoFrame load(int index) const override {
     const std::size_t i = checked(index);
@@ -124,21 +184,21 @@ class ImageDataset final : public Dataset {
     return static_cast<std::size_t>(index);
   }
 
-  void set_rig(const FirstPair& first) {
+  // As the calibration has it: without a size if it states none.
+  void set_rig() {
     if (sequence_.calibration.raw) {
       rectifier_.emplace(*sequence_.calibration.raw);
       rig_ = rectifier_->rig();
     } else {
       rig_ = sequence_.calibration.rig;
-      const bool stated = rig_.width > 0;
-      if (!stated) rig_.width = first.size.width, rig_.height = first.size.height;
-      rig_.check();
-      if (!stated) check_unstated_size(rig_, sequence_);
+      if (rig_.width > 0) rig_.check();
     }
-    if (first.size != cv::Size(rig_.width, rig_.height))
-      throw InputError(sequence_.calibration_file.string() + " is for images of " +
-                       size_text({rig_.width, rig_.height}) + ", but " + first.left.string() + " is " +
-                       size_text(first.size) + "; give the calibration of this image size");
+  }
+
+  void set_unstated_size(cv::Size size) {
+    rig_.width = size.width, rig_.height = size.height;
+    rig_.check();
+    check_unstated_size(rig_, sequence_);
   }
 
   // The first problem of a pair is told; the other eye's image is then of no use.

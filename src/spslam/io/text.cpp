@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -42,6 +43,37 @@ std::string number_text(double value, std::chars_format format, int digits) {
   char buffer[400];  // the largest double has 309 digits before the point
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, format, digits);
   return {buffer, result.ptr};
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    parts.push_back(trimmed(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+// Of the line `YYYY-MM-DD hh:mm:ss.s`. Which zone it is in does not matter here.
+double seconds_since_1970(const LineReader& reader) {
+  const std::vector<std::string_view> words = reader.fields();
+  const std::vector<std::string_view> date = split(words[0], '-'), clock = split(words[1], ':');
+  if (date.size() != 3 || clock.size() != 3)
+    reader.fail("is neither one time in seconds nor a date and time as 2011-09-26 13:02:25.964");
+  const auto part = [&](std::string_view word, int minimum, int maximum) {
+    const std::int64_t value = reader.integer(word);
+    if (value < minimum || value > maximum) reader.fail(in_quotes(word) + " is no part of a date and time");
+    return static_cast<int>(value);
+  };
+  const std::chrono::year_month_day day{std::chrono::year(part(date[0], 1970, 9999)),
+                                        std::chrono::month(static_cast<unsigned>(part(date[1], 1, 12))),
+                                        std::chrono::day(static_cast<unsigned>(part(date[2], 1, 31)))};
+  const int hour = part(clock[0], 0, 23), minute = part(clock[1], 0, 59);
+  const double second = reader.real(clock[2]);
+  if (!day.ok() || second < 0 || second >= 61) reader.fail("is no date and time");
+  const auto days = std::chrono::sys_days(day).time_since_epoch().count();
+  return 86400.0 * static_cast<double>(days) + 3600.0 * hour + 60.0 * minute + second;
 }
 
 }  // namespace
@@ -92,15 +124,8 @@ bool LineReader::next() {
 }
 
 std::vector<std::string_view> LineReader::fields(char separator) const {
+  if (separator != ' ') return split(line_, separator);
   std::vector<std::string_view> words;
-  if (separator != ' ') {
-    for (std::size_t begin = 0; begin <= line_.size();) {
-      const std::size_t end = std::min(line_.find(separator, begin), line_.size());
-      words.push_back(trimmed(line_.substr(begin, end - begin)));
-      begin = end + 1;
-    }
-    return words;
-  }
   for (std::size_t begin = 0; (begin = line_.find_first_not_of(kBlank, begin)) != std::string_view::npos;) {
     const std::size_t end = std::min(line_.find_first_of(kBlank, begin), line_.size());
     words.push_back(line_.substr(begin, end - begin));
@@ -142,7 +167,8 @@ void LineReader::fail(const std::string& what) const {
 std::vector<double> parse_times(std::string_view text, const std::string& name) {
   std::vector<double> times;
   for (LineReader reader(text, name); reader.next();) {
-    const double time = reader.reals(1, "one time in seconds a line")[0];
+    const double time = reader.fields().size() == 2 ? seconds_since_1970(reader)
+                                                    : reader.reals(1, "one time in seconds a line")[0];
     if (!times.empty() && time <= times.back())
       reader.fail("time " + fixed_text(time, 6) + " s does not come after " + fixed_text(times.back(), 6) +
                   " s before it; times must increase from line to line, correct the file");

@@ -49,7 +49,8 @@ class LineReader {
   int number_ = 0;
 };
 
-// A time a line, strictly increasing (s). Throws InputError that names the line.
+// A time a line, strictly increasing, in seconds or as KITTI's `2011-09-26 13:02:25.964389445` (in seconds
+// since 1970). Throws InputError that names the line.
 std::vector<double> parse_times(std::string_view text, const std::string& name);
 
 // "-1.500000": a fixed number of digits behind the point.

@@ -6,7 +6,6 @@
 
 #include "spslam/base/error.h"
 #include "spslam/io/image_sequence.h"
-#include "spslam/io/text.h"
 
 namespace spslam {
 
@@ -22,10 +21,8 @@ ImageSequence find_usvinland(const std::filesystem::path& folder, const DatasetO
                           ? "raw pair goes with PIC_Left, one of a rectified pair with PIC_Left_Rectified"
                           : "rectified pair goes with PIC_Left_Rectified, one of a raw pair with PIC_Left"));
   find_frames(sequence, left, right, folder / "Stereo_Timestamp.txt", options);
-  if (const auto gps = folder / "GPSBase.csv"; std::filesystem::exists(gps)) {
-    sequence.ground_truth = parse_usvinland_gps(read_text_file(gps), gps.string());
-    sequence.planar_ground_truth = true;
-  }
+  const TruthFile truth[] = {{folder / "GPSBase.csv", TrajectoryFormat::kUsvinland}};
+  find_truth(sequence, truth, options);
   return sequence;
 }
 
