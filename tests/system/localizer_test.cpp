@@ -155,7 +155,7 @@ double error_of_first(const std::vector<TrajectoryPose>& session) {
   for (const StereoFrame& pair : scene_pairs()) {
     TrackerOutput output = odometry.track(pair);
     output.result.world_from_camera.translation *= 1.5;
-    if (&pair != &scene_pairs().back()) output.described.reset();
+    if (&pair != &scene_pairs().back()) output.seen.reset();
     localizer.place(output);
   }
   localizer.finish(session);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Maps of any size without images: keyframes in a row, each the host of new landmarks and looking back at
+// Maps of any size: keyframes in a row, each the host of new landmarks and looking back at
 // old ones.
 #pragma once
 
@@ -22,6 +22,7 @@ inline StereoRig made_up_rig() {
 
 inline std::shared_ptr<const KeyframeFeatures> made_up_features(int count, Random& random) {
   auto features = std::make_shared<KeyframeFeatures>();
+  features->level_scale = 1.25F;
   const auto number = [&](double scale) { return static_cast<float>(scale * random.uniform()); };
   for (int i = 0; i < count; ++i) {
     features->keypoints.push_back(
@@ -59,7 +60,7 @@ inline Sighting made_up_sighting(LandmarkId landmark, Random& random) {
 }
 
 // A quarter of a keyframe's sightings are of landmarks that it is the first to see. The last keyframe has no
-// features yet; a loop joins the first and the last.
+// features and no image yet; a loop joins the first and the last.
 inline Map made_up_map(const MadeUpMap& wanted = {}) {
   Random random(wanted.seed);
   Map map;
@@ -77,7 +78,10 @@ inline Map made_up_map(const MadeUpMap& wanted = {}) {
     const std::int64_t seen = std::min<std::int64_t>(landmarks, wanted.sightings);
     for (std::int64_t i = landmarks - seen; i < landmarks; ++i)
       keyframe.sightings.push_back(made_up_sighting({3 * i}, random));
-    if (k + 1 < wanted.keyframes) keyframe.features = made_up_features(wanted.features, random);
+    if (k + 1 < wanted.keyframes) {
+      keyframe.features = made_up_features(wanted.features, random);
+      keyframe.image = std::make_shared<const ImageBytes>(ImageBytes{1, 2, 3, 4, 5});
+    }
     map.add(std::move(keyframe));
   }
   if (wanted.keyframes > 1)

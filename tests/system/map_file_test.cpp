@@ -52,7 +52,7 @@ Bytes read_all(const std::filesystem::path& path) {
 Bytes sealed(const Bytes& payload) {
   ByteWriter file;
   for (const char letter : std::string_view("SPSLMAP\x1A")) file.put(letter);
-  file.put(std::uint32_t{1});
+  file.put(std::uint32_t{2});
   file.put(crc32(payload));
   file.put(std::uint64_t{payload.size()});
   for (const std::byte byte : payload) file.put(static_cast<std::uint8_t>(byte));
@@ -78,7 +78,7 @@ void expect_same(const Map& a, const Map& b) {
   for (const auto& [id, keyframe] : a.keyframes()) EXPECT_EQ(a.covisible(id), b.covisible(id));
 }
 
-TEST_F(MapFile, GivesBackEverythingButTheImages) {
+TEST_F(MapFile, GivesBackEverythingButThePyramids) {
   const Map map = made_up_map();
   save_map(path(), map, made_up_rig());
   EXPECT_EQ(files_in_folder(), 1U);
@@ -98,6 +98,10 @@ TEST_F(MapFile, GivesBackEverythingButTheImages) {
   EXPECT_EQ(read.features->descriptors, written.features->descriptors);
   EXPECT_EQ(read.features->inverse_depths, written.features->inverse_depths);
   EXPECT_EQ(read.features->information, written.features->information);
+  EXPECT_EQ(read.features->level_scale, 1.25F);
+  ASSERT_TRUE(read.image);
+  EXPECT_EQ(*read.image, *written.image);
+  EXPECT_EQ(saved.map.keyframes().rbegin()->second.image, nullptr);
   EXPECT_EQ(saved.map.keyframes().rbegin()->second.features, nullptr);
   const Landmark &there = *map.find(LandmarkId{9}), &here = *saved.map.find(LandmarkId{9});
   EXPECT_EQ(here.bearing, there.bearing);
@@ -143,8 +147,8 @@ TEST(MapBytes, RefusesForeignAndNewerFiles) {
   EXPECT_THAT(refusal({}), HasSubstr("river.map: is empty"));
   EXPECT_THAT(refusal(Bytes(5000, std::byte{'x'})), HasSubstr("not a map of SP-SLAM"));
   Bytes newer = good;
-  newer[8] = std::byte{2};
-  EXPECT_THAT(refusal(newer), AllOf(HasSubstr("format 2"), HasSubstr("reads format 1")));
+  newer[8] = std::byte{3};
+  EXPECT_THAT(refusal(newer), AllOf(HasSubstr("format 3"), HasSubstr("reads format 2")));
   Bytes longer = good;
   longer.push_back(std::byte{0});
   EXPECT_THAT(refusal(longer), HasSubstr("behind its header"));
@@ -188,13 +192,14 @@ TEST(MapBytes, FlippedBitsUnderARightChecksumAreRefusedOrHarmless) {
 }
 
 // Two landmarks (ids 0 and 3, host 1), two keyframes (ids 1 and 3) of one sighting, the first with one
-// feature, one loop.
+// feature and an image of 5 bytes, one loop.
 struct Layout {
   static constexpr std::size_t kLandmark = 48 + 8, kLandmarkSize = 114;
   static constexpr std::size_t kKeyframe = kLandmark + 2 * kLandmarkSize + 8;
-  static constexpr std::size_t kSighting = kKeyframe + 136, kFeature = kSighting + 64 + 1 + 8;
-  static constexpr std::size_t kSecond = kFeature + 57;
-  static constexpr std::size_t kLoop = kSecond + 136 + 64 + 1 + 8;
+  static constexpr std::size_t kSighting = kKeyframe + 136, kFeature = kSighting + 64 + 1 + 4 + 8;
+  static constexpr std::size_t kImage = kFeature + 57 + 8;
+  static constexpr std::size_t kSecond = kImage + 5;
+  static constexpr std::size_t kLoop = kSecond + 136 + 64 + 1 + 8 + 8;
 };
 
 struct Damage {
@@ -236,6 +241,8 @@ const Damage kDamages[] = {
     {"SightingWeight", Layout::kSighting + 56, kNaN, "weight"},
     {"FeatureFlag", Layout::kSighting + 64, std::uint8_t{7}, "features"},
     {"FeatureCount", Layout::kFeature - 8, std::int64_t{1} << 50, "features, has bytes for"},
+    {"FeatureScale", Layout::kFeature - 12, 0.5F, "pyramid"},
+    {"ImageSize", Layout::kImage - 8, std::int64_t{1} << 50, "bytes of an image"},
     {"FeatureNaN", Layout::kFeature, std::numeric_limits<float>::quiet_NaN(), "feature"},
     {"FeatureDepth", Layout::kFeature + 49, std::numeric_limits<float>::quiet_NaN(), "depth"},
     {"LoopEnd", Layout::kLoop, std::int64_t{12}, "keyframe 12"},

@@ -14,8 +14,8 @@ constexpr double kGuidedRatio = 0.9;  // best distance over second best
 constexpr double kSameCorner = 3;     // px; nearer ones are one corner found on two levels
 constexpr int kVisibleCell = 4;       // px
 
-double position_variance(const Keypoint& keypoint, double sigma) {
-  return std::pow(sigma * std::pow(kLevelScale, keypoint.octave), 2);
+double position_variance(const Keypoint& keypoint, double level_scale, double sigma) {
+  return std::pow(sigma * std::pow(level_scale, keypoint.octave), 2);
 }
 
 }  // namespace
@@ -38,8 +38,9 @@ Correspondence Correspondences::pair(int point, int feature) const {
   out.bearing = p.bearing, out.inverse_depth = p.inverse_depth;
   const double share = options_.depth_share;
   if (p.information > 0) out.information = 1 / (1 / p.information + std::pow(share * p.inverse_depth, 2));
-  const double sigma = std::sqrt(position_variance(seen, options_.position_sigma) +
-                                 position_variance(older_.keypoint(p), options_.position_sigma));
+  const double older_scale = older_.sources[p.source].features->level_scale;
+  const double sigma = std::sqrt(position_variance(seen, newer_.level_scale, options_.position_sigma) +
+                                 position_variance(older_.keypoint(p), older_scale, options_.position_sigma));
   out.measured = {seen.x, seen.y, 0};
   out.inverse_sigma = {1 / sigma, 1 / sigma, 0};
   const double fb = rig_.disparity_per_inverse_depth();

@@ -7,8 +7,6 @@
 
 namespace spslam {
 
-constexpr double kLevelScale = 1.2;  // of the pyramid: a corner of level n is known 1.2^n times worse
-
 class Correspondences {
  public:
   // All three must outlive it.

@@ -140,15 +140,16 @@ class Fusion {
       const Keypoint& at = newer.features->keypoints[pair.feature];
       const LandmarkId gone = at.octave == 0 ? of_newer.landmark(at.x, at.y) : LandmarkId{};
       if (!gone.valid())
-        add_sighting(newer.id, kept, at);
+        add_sighting(newer, kept, at);
       else if (!older_.contains(gone))
         duplicates_.push_back({0, kept, gone});
     }
   }
 
-  void add_sighting(KeyframeId keyframe, LandmarkId landmark, const Keypoint& at) {
-    const double sigma = std::hypot(kFusedSigma, options_.position_sigma * std::pow(kLevelScale, at.octave));
-    correction_.sightings.push_back({keyframe, {landmark, {at.x, at.y, 0}, {1 / sigma, 1 / sigma, 0}, 1}});
+  void add_sighting(const Keyframe& keyframe, LandmarkId landmark, const Keypoint& at) {
+    const double level = std::pow(keyframe.features->level_scale, at.octave);
+    const double sigma = std::hypot(kFusedSigma, options_.position_sigma * level);
+    correction_.sightings.push_back({keyframe.id, {landmark, {at.x, at.y, 0}, {1 / sigma, 1 / sigma, 0}, 1}});
   }
 
   const Map& map_;

@@ -21,16 +21,30 @@ bool agree(const Relocalized& a, const Relocalized& b) {
          so3_log(off.rotation).norm() <= kSamePlaceTurn;
 }
 
+// By patches, where there are any: what was imprecise may be found then.
+void make_precise(const AlignmentPyramid& left, const Map& map, const StereoRig& rig,
+                  const RelocalizationOptions& options, RelocalizationAttempt& attempt) {
+  std::optional<Relocalized>& known = attempt.found ? attempt.found : attempt.imprecise;
+  if (!known) return;
+  const auto precise = pose_by_patches(map, rig, left, known->camera_from_world, options.patches);
+  if (!precise) return;
+  known->camera_from_world = precise->camera_from_world, known->covariance = precise->covariance;
+  known->by_patches = true;
+  if (attempt.found || precise->position_sigma() > options.verification.max_translation_sigma) return;
+  attempt.found = attempt.imprecise;
+  attempt.imprecise.reset();
+}
+
 }  // namespace
 
-RelocalizationAttempt relocalize(const KeyframeFeatures& query, const Map& map, const StereoRig& rig,
+RelocalizationAttempt relocalize(const SeenFrame& query, const Map& map, const StereoRig& rig,
                                  const KeyframeIndex& index, const RelocalizationOptions& options,
                                  const std::set<KeyframeId>& exclude, std::span<const KeyframeId> guesses) {
   RelocalizationAttempt out;
   bool contradiction = false;
   const auto compare = [&](KeyframeId id, double score) {
     const Place place = place_of(map, rig, id, options.verification.neighbours);
-    Verification verified = verify(place, query, rig, index.vocabulary(), options.verification);
+    Verification verified = verify(place, query.features, rig, index.vocabulary(), options.verification);
     verified.pairs.clear();
     if (verified.accepted() || verified.stage == VerificationStage::kUncertain) {
       const SE3 pose = (verified.newer_from_older * map.find(id)->camera_from_world).normalized();
@@ -45,11 +59,12 @@ RelocalizationAttempt relocalize(const KeyframeFeatures& query, const Map& map, 
     if (map.find(id)) compare(id, 0);
   if (!out.found) {
     int candidates = 0;
-    for (const CandidateGroup& group : group_candidates(index.query(query, exclude), map))
+    for (const CandidateGroup& group : group_candidates(index.query(query.features, exclude), map))
       if (candidates++ < options.candidates) compare(group.best, group.score);
   }
   if (contradiction || out.found) out.imprecise.reset();
   if (contradiction) out.found.reset();
+  make_precise(query.left, map, rig, options, out);
   return out;
 }
 

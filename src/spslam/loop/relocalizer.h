@@ -5,6 +5,7 @@
 #pragma once
 
 #include "spslam/loop/keyframe_index.h"
+#include "spslam/loop/patch_pose.h"
 #include "spslam/loop/verification.h"
 
 namespace spslam {
@@ -12,11 +13,13 @@ namespace spslam {
 struct RelocalizationOptions {
   int candidates = 5;
   VerificationOptions verification;
+  PatchPoseOptions patches;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.candidates, {"candidates", "", "places that are compared, best first", 1, 1000});
     visit.group("verification", self.verification);
+    visit.group("patches", self.patches);
   }
 };
 
@@ -25,6 +28,7 @@ struct Relocalized {
   Matrix6d covariance = Matrix6d::Identity();  // of a left perturbation of it against the reference, (m, rad)
   KeyframeId reference;                        // the keyframe recognized
   int inliers = 0;
+  bool by_patches = false;  // whether the pose is theirs (patch_pose.h)
 };
 
 struct RelocalizationAttempt {
@@ -43,11 +47,12 @@ struct RelocalizationAttempt {
 // One line for the log: each keyframe tried, the test it ended at and its figures.
 std::string describe_attempt(const RelocalizationAttempt& attempt);
 
-// Features with inverse depths if stereo gave them; without, the map's alone must do. Nothing if two places
-// that are accepted contradict each other. Keyframes in `exclude` are no candidates, as those of the submap
+// Features with inverse depths if stereo gave them; without, the map's alone must do. What is found is made
+// precise by patches, where the query and the map have images. Nothing if two places that are accepted
+// contradict each other. Keyframes in `exclude` are no candidates, as those of the submap
 // that was begun when the old one was lost. Those in `guesses` are compared first, and alone if one of them
 // is the place.
-RelocalizationAttempt relocalize(const KeyframeFeatures& query, const Map& map, const StereoRig& rig,
+RelocalizationAttempt relocalize(const SeenFrame& query, const Map& map, const StereoRig& rig,
                                  const KeyframeIndex& index, const RelocalizationOptions& options,
                                  const std::set<KeyframeId>& exclude = {},
                                  std::span<const KeyframeId> guesses = {});

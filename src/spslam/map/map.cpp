@@ -176,6 +176,13 @@ bool Map::set_features(KeyframeId id, std::shared_ptr<const KeyframeFeatures> fe
   return true;
 }
 
+bool Map::set_image(KeyframeId id, std::shared_ptr<const ImageBytes> image) {
+  const auto it = keyframes_.find(id);
+  if (it == keyframes_.end()) return false;
+  it->second.image = std::move(image);
+  return true;
+}
+
 bool Map::update(const Landmark& landmark) {
   const auto it = landmarks_.find(landmark.id);
   if (it == landmarks_.end() || it->second.host != landmark.host) return false;
@@ -186,7 +193,7 @@ bool Map::update(const Landmark& landmark) {
   return true;
 }
 
-void Map::drop_image(KeyframeId id) {
+void Map::drop_pyramid(KeyframeId id) {
   if (const auto it = keyframes_.find(id); it != keyframes_.end()) it->second.left = {};
 }
 

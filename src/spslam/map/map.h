@@ -47,10 +47,11 @@ class Map {
   bool set_pose(KeyframeId id, const SE3& camera_from_world);
   bool set_estimate(LandmarkId id, double inverse_depth, double information);
   bool set_features(KeyframeId id, std::shared_ptr<const KeyframeFeatures> features);
+  bool set_image(KeyframeId id, std::shared_ptr<const ImageBytes> image);
   // Takes over what another says of a landmark that is still there and still hosted by the same keyframe.
   bool update(const Landmark& landmark);
-  // Lets go of the keyframe's image.
-  void drop_image(KeyframeId id);
+  // Lets go of the keyframe's pyramid.
+  void drop_pyramid(KeyframeId id);
   // Adds what a keyframe saw, or replaces it; false if the keyframe or the landmark is gone.
   bool set_sighting(KeyframeId id, const Sighting& sighting);
   void erase_sighting(KeyframeId id, LandmarkId landmark);

@@ -39,16 +39,25 @@ struct Sighting {
   double weight = 1;  // w_t of equation (8) for far points, else 1
 };
 
-// ORB features of a keyframe, over all levels of the pyramid: what it is recognized by when the patches are
-// long gone. All vectors are of one length.
+// ORB features of a keyframe, over all levels of the pyramid: what it is recognized by. All vectors are of
+// one length.
 struct KeyframeFeatures {
   std::vector<Keypoint> keypoints;
   std::vector<Descriptor> descriptors;
   std::vector<float> inverse_depths;  // 1/m along z of the left camera
   std::vector<float> information;     // m^2, of the inverse depth; 0 where none was measured
+  float level_scale = 1.2F;  // of the pyramid: a corner of level n is known level_scale^n times worse
 
   std::size_t size() const { return keypoints.size(); }
 };
+
+// What a frame is recognized by, and what then tells where it is.
+struct SeenFrame {
+  KeyframeFeatures features;
+  AlignmentPyramid left;
+};
+
+using ImageBytes = std::vector<std::uint8_t>;  // of an image file (keyframe_image.h)
 
 struct Keyframe {
   KeyframeId id;
@@ -58,6 +67,7 @@ struct Keyframe {
   AlignmentPyramid left = {};            // as long as somebody follows its patches; empty in an old keyframe
   std::vector<Sighting> sightings = {};  // ascending, one a landmark it saw, its own among them
   std::shared_ptr<const KeyframeFeatures> features = {};  // null until the mapper has described it
+  std::shared_ptr<const ImageBytes> image = {};           // what stays of `left`; null if not wanted
   KeyframeId parent = {};                                 // in the spanning tree; not valid for its root
 };
 

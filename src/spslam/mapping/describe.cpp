@@ -11,6 +11,7 @@ std::shared_ptr<const KeyframeFeatures> describe(const Map& map, const Keyframe&
                                                  OrbExtractor& extractor, const DescribeOptions& options) {
   if (keyframe.left.empty()) return nullptr;
   auto out = std::make_shared<KeyframeFeatures>();
+  out->level_scale = static_cast<float>(extractor.options().scale);
   extractor.set_image(keyframe.left.level(0));
   for (const Sighting& sighting : keyframe.sightings) {
     if (static_cast<int>(out->keypoints.size()) >= options.count) break;

@@ -11,10 +11,13 @@ namespace spslam {
 
 struct DescribeOptions {
   int count = 1000;
+  int image_quality = 90;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.count, {"count", "", "ORB features kept of a keyframe", 50, 20000});
+    visit(self.image_quality,
+          {"image_quality", "", "of the JPEG that is kept of its left image; 0: none is kept", 0, 100});
   }
 };
 

@@ -3,6 +3,8 @@
 
 #include "spslam/mapping/local_mapper.h"
 
+#include "spslam/map/keyframe_image.h"
+
 namespace spslam {
 namespace {
 
@@ -36,6 +38,9 @@ MappingResult LocalMapper::insert(KeyframeProposal proposal, const std::function
   adjust(stop, result);                                                                          // 3.2.2
   map_.set_features(result.keyframe,
                     describe(map_, *map_.find(result.keyframe), extractor_, options_.features));
+  if (const Keyframe& keyframe = *map_.find(result.keyframe);
+      options_.features.image_quality > 0 && !keyframe.left.empty())
+    map_.set_image(keyframe.id, compress(keyframe.left.level(0), options_.features.image_quality));
   result.triangulated = add_landmarks_between(map_, rig_, result.keyframe, extractor_.options().scale,
                                               options_.triangulation, next_landmark_);
   result.fused = fuse_duplicates(map_, rig_, result.keyframe, options_.duplicates);
@@ -81,7 +86,7 @@ LocalMapView LocalMapper::view(KeyframeId newest) {
   std::sort(ids.begin(), ids.end());
   std::erase_if(with_images_, [&](KeyframeId id) {
     const bool needed = std::binary_search(ids.begin(), ids.end(), id);
-    if (!needed) map_.drop_image(id);
+    if (!needed) map_.drop_pyramid(id);
     return !needed;
   });
   LocalMapView out;

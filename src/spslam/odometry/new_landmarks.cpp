@@ -88,6 +88,7 @@ KeyframeFeatures describe(const Frame& frame, const StereoRig& rig, const Dispar
   }
   out.keypoints = std::move(features.keypoints);
   out.descriptors = std::move(features.descriptors);
+  out.level_scale = static_cast<float>(options.orb.scale);
   return out;
 }
 

@@ -74,8 +74,7 @@ TrackerOutput Tracker::track(const StereoFrame& pair) {
       result.keyframe_id = present.keyframe;
     }
     if (describe_interval_ > 0 && result.frame.value % describe_interval_ == 0)
-      out.described = std::make_shared<const KeyframeFeatures>(
-          describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
+      out.seen = std::make_shared<const SeenFrame>(see(frame));
   }
   finish_frame(out);
   timer.end(&StageTimes::keyframe);
@@ -152,6 +151,10 @@ bool Tracker::is_sound(const MotionEstimate& motion, const std::vector<Sighting>
   return result.reason.empty();
 }
 
+SeenFrame Tracker::see(const Frame& frame) {
+  return {describe(frame, map_.rig, map_.disparity_offset, front_end_, options_), frame.left};
+}
+
 // Where tracking begins: at the origin, or where the map knows the frame to be, or, after a loss in which
 // that has failed often enough, where the last known velocity has carried. Nothing: not yet.
 std::optional<UncertainPose> Tracker::starting_pose(const Frame& frame, TrackResult& result) {
@@ -164,8 +167,7 @@ std::optional<UncertainPose> Tracker::starting_pose(const Frame& frame, TrackRes
   };
   if (relocalize_ && (must_localize_ || relocalizations_ < options_.state.relocalization_frames)) {
     ++relocalizations_;
-    const std::optional<FoundPose> found =
-        relocalize_(describe(frame, map_.rig, map_.disparity_offset, front_end_, options_));
+    const std::optional<FoundPose> found = relocalize_(see(frame));
     if (found && found->precise) {
       result.reason = "found in the map";
       return found->pose;

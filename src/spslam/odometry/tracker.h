@@ -28,9 +28,9 @@ struct FramePose {
 
 struct TrackerOutput {
   TrackResult result;
-  std::vector<KeyframeProposal> proposals;            // keyframes that left the window
-  std::vector<FramePose> settled;                     // frames that odometry will not change any more
-  std::shared_ptr<const KeyframeFeatures> described;  // of this frame, if set_describe_interval() wants it
+  std::vector<KeyframeProposal> proposals;  // keyframes that left the window
+  std::vector<FramePose> settled;           // frames that odometry will not change any more
+  std::shared_ptr<const SeenFrame> seen;    // this frame, if set_describe_interval() wants it
 };
 
 // Where in the map a frame was taken, by what it looks like. The place is sure; if it is not `precise`, all
@@ -40,7 +40,7 @@ struct FoundPose {
   bool precise = true;
 };
 // Nothing if it is not surely there.
-using Relocalize = std::function<std::optional<FoundPose>(const KeyframeFeatures&)>;
+using Relocalize = std::function<std::optional<FoundPose>(const SeenFrame&)>;
 
 class Tracker {
  public:
@@ -83,6 +83,7 @@ class Tracker {
   std::vector<Sighting> find_landmarks(const Frame& frame, SE3& predicted, TrackResult& result);
   bool is_sound(const MotionEstimate& motion, const std::vector<Sighting>& sightings,
                 TrackResult& result) const;
+  SeenFrame see(const Frame& frame);
   void begin(const Frame& frame, TrackResult& result);
   std::optional<UncertainPose> starting_pose(const Frame& frame, TrackResult& result);
   void coast(const std::string& reason, TrackResult& result);

@@ -26,6 +26,10 @@ class ByteWriter {
     if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
+  void put_bytes(std::span<const std::uint8_t> bytes) {
+    const auto raw = std::as_bytes(bytes);
+    bytes_.insert(bytes_.end(), raw.begin(), raw.end());
+  }
   std::vector<std::byte> bytes() && { return std::move(bytes_); }
 
  private:
@@ -49,6 +53,13 @@ class ByteReader {
     if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
     at_ += sizeof(T);
     return std::bit_cast<T>(bytes);
+  }
+  std::vector<std::uint8_t> take_bytes(std::size_t count) {
+    if (left() < count) fail("ends in the middle of an image");
+    std::vector<std::uint8_t> out(count);
+    if (count > 0) std::memcpy(out.data(), bytes_.data() + at_, count);
+    at_ += count;
+    return out;
   }
   // A number of things that take at least so many bytes each: refused if the file is too short to hold them,
   // before anything is allocated for them.

@@ -63,7 +63,7 @@ TrackResult Localizer::place(const TrackerOutput& odometry) {
   }
   const int stretch = result.status == TrackStatus::kLost ? kLost : stretch_;
   frames_.push_back({result.frame, result.timestamp, result.status, camera_from_session, stretch, kLost, {}});
-  if (odometry.described && result.status != TrackStatus::kLost) ask(odometry.described);
+  if (odometry.seen && result.status != TrackStatus::kLost) ask(odometry.seen);
   take_answers();
 
   PlacedFrame& here = frames_.back();
@@ -83,8 +83,8 @@ TrackResult Localizer::place(const TrackerOutput& odometry) {
   return result;
 }
 
-void Localizer::ask(std::shared_ptr<const KeyframeFeatures> features) {
-  Request request{frames_.size() - 1, std::move(features), {}};
+void Localizer::ask(std::shared_ptr<const SeenFrame> frame) {
+  Request request{frames_.size() - 1, std::move(frame), {}};
   if (const auto known = filter_.estimate()) request.expected = known->camera_from_world;
   if (worker_.is_started()) {
     if (requests_.empty()) requests_.push(std::move(request));  // else the last one still waits
@@ -98,7 +98,7 @@ std::optional<Localizer::Answer> Localizer::look(const Request& request) const {
   std::vector<KeyframeId> guesses;
   if (request.expected) guesses = nearest_keyframes(map_, *request.expected, options_.localization.nearest);
   const RelocalizationAttempt attempt =
-      relocalize(*request.features, map_, rig_, index_, options_.loop.relocalization, {}, guesses);
+      relocalize(*request.frame, map_, rig_, index_, options_.loop.relocalization, {}, guesses);
   // Where everything is far the place is recognized, if not the position to the decimetre.
   const std::optional<Relocalized>& found = attempt.found ? attempt.found : attempt.imprecise;
   if (!found) {

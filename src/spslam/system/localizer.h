@@ -48,7 +48,7 @@ class Localizer {
   };
   struct Request {
     std::size_t index = 0;  // of the frame
-    std::shared_ptr<const KeyframeFeatures> features;
+    std::shared_ptr<const SeenFrame> frame;
     std::optional<SE3> expected;  // camera_from_world
   };
   struct Answer {
@@ -57,7 +57,7 @@ class Localizer {
     bool precise = true;
   };
 
-  void ask(std::shared_ptr<const KeyframeFeatures> features);
+  void ask(std::shared_ptr<const SeenFrame> frame);
   std::optional<Answer> look(const Request& request) const;
   void stop();
   void take_answers();

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kSightingBytes = 8 + 7 * 8;
 constexpr std::size_t kFeatureBytes = 4 * 4 + 1 + 32 + 2 * 4;
 constexpr std::size_t kLandmarkBytes = 2 * 8 + 2 * 4 + 7 * 8 + 1 + 32 + 1;
-constexpr std::size_t kKeyframeBytes = 3 * 8 + 8 + 12 * 8 + 8 + 1;
+constexpr std::size_t kKeyframeBytes = 3 * 8 + 8 + 12 * 8 + 8 + 1 + 8;
 constexpr std::size_t kLoopBytes = 2 * 8 + 12 * 8 + 8;
 
 template <class Vector>
@@ -119,6 +119,7 @@ Sighting take_sighting(ByteReader& in) {
 }
 
 void put(ByteWriter& out, const KeyframeFeatures& features) {
+  out.put(features.level_scale);
   out.put(std::uint64_t{features.size()});
   for (std::size_t i = 0; i < features.size(); ++i) {
     const Keypoint& keypoint = features.keypoints[i];
@@ -132,6 +133,7 @@ void put(ByteWriter& out, const KeyframeFeatures& features) {
 
 std::shared_ptr<const KeyframeFeatures> take_features(ByteReader& in) {
   auto features = std::make_shared<KeyframeFeatures>();
+  features->level_scale = in.take<float>();
   const std::size_t count = in.take_count(kFeatureBytes, "features");
   features->keypoints.reserve(count);
   features->descriptors.reserve(count);
@@ -160,6 +162,8 @@ void put(ByteWriter& out, const Keyframe& keyframe) {
   for (const Sighting& sighting : keyframe.sightings) put(out, sighting);
   out.put(std::uint8_t{keyframe.features != nullptr});
   if (keyframe.features) put(out, *keyframe.features);
+  out.put(std::uint64_t{keyframe.image ? keyframe.image->size() : 0});
+  if (keyframe.image) out.put_bytes(*keyframe.image);
 }
 
 Keyframe take_keyframe(ByteReader& in) {
@@ -175,6 +179,8 @@ Keyframe take_keyframe(ByteReader& in) {
   const auto has_features = in.take<std::uint8_t>();
   if (has_features > 1) in.fail("neither says that features follow nor that none do");
   if (has_features) keyframe.features = take_features(in);
+  if (const std::size_t size = in.take_count(1, "bytes of an image"))
+    keyframe.image = std::make_shared<const ImageBytes>(in.take_bytes(size));
   return keyframe;
 }
 
@@ -205,8 +211,9 @@ std::vector<Item> take_all(ByteReader& in, std::size_t least_bytes, const char* 
 std::size_t encoded_size(const Map& map) {
   std::size_t size = 256 + map.landmarks().size() * kLandmarkBytes + map.loops().size() * kLoopBytes;
   for (const auto& [id, keyframe] : map.keyframes())
-    size += kKeyframeBytes + 8 + keyframe.sightings.size() * kSightingBytes +
-            (keyframe.features ? keyframe.features->size() * kFeatureBytes : 0);
+    size += kKeyframeBytes + 12 + keyframe.sightings.size() * kSightingBytes +
+            (keyframe.features ? keyframe.features->size() * kFeatureBytes : 0) +
+            (keyframe.image ? keyframe.image->size() : 0);
   return size;
 }
 

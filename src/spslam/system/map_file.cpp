@@ -16,7 +16,7 @@ namespace spslam {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'P', 'S', 'L', 'M', 'A', 'P', '\x1A'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;  // 2: images and the features' level_scale
 constexpr std::size_t kHeaderBytes = kMagic.size() + 4 + 4 + 8;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {

@@ -10,7 +10,7 @@
 
 namespace spslam {
 
-// Everything but the images. The file appears whole, or the one that was there before stays. Throws
+// Everything but the pyramids. The file appears whole, or the one that was there before stays. Throws
 // OutputError.
 void save_map(const std::filesystem::path& path, const Map& map, const StereoRig& rig);
 // Throws InputError that says what is wrong with the file and what to do.

@@ -48,6 +48,7 @@ MapProblem problem_of(const KeyframeFeatures& features) {
   if (features.descriptors.size() != size || features.inverse_depths.size() != size ||
       features.information.size() != size)
     return "features whose lists differ in length";
+  if (!(features.level_scale >= 1 && features.level_scale <= 4)) return "a pyramid whose scale is not 1 to 4";
   for (const Keypoint& keypoint : features.keypoints)
     for (const float value : {keypoint.x, keypoint.y, keypoint.angle, keypoint.response})
       if (!std::isfinite(value)) return "a feature at a place that is not finite";

@@ -29,7 +29,7 @@ Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map)
     for (const auto& [id, keyframe] : known.keyframes()) closer_.add(known, id);
   }
   if (options.localization.enabled) tracker_.set_describe_interval(options.localization.interval);
-  tracker_.set_relocalizer([this](const KeyframeFeatures& features) { return relocalize(features); });
+  tracker_.set_relocalizer([this](const SeenFrame& frame) { return relocalize(frame); });
   if (is_parallel()) start_threads();
 }
 
@@ -168,11 +168,11 @@ void Stages::write(MapCorrection correction) {
   publish(mapper_.correct([&](Map& map) { apply(correction, map); }));
 }
 
-std::optional<FoundPose> Stages::relocalize(const KeyframeFeatures& features) {
+std::optional<FoundPose> Stages::relocalize(const SeenFrame& frame) {
   const std::scoped_lock lock(map_mutex_);
   adopt_view();  // what is found is found in the map as it is now
   const RelocalizationAttempt attempt =
-      spslam::relocalize(features, mapper_.map(), rig_, closer_.index(), options_.loop.relocalization);
+      spslam::relocalize(frame, mapper_.map(), rig_, closer_.index(), options_.loop.relocalization);
   const std::optional<Relocalized>& found = attempt.found ? attempt.found : attempt.imprecise;
   if (!found) {
     spdlog::info("not recognized in the map: {}", describe_attempt(attempt));

@@ -50,7 +50,7 @@ class Stages {
   void write(MapCorrection correction);
   void publish(LocalMapView view);
   void publish_mapped(LocalMapView view);  // of a keyframe that was on its way
-  std::optional<FoundPose> relocalize(const KeyframeFeatures& features);
+  std::optional<FoundPose> relocalize(const SeenFrame& frame);
   void stop();
 
   // One that waits is the rule when tracking runs as fast as it can, and is worth an adjustment done in full.
