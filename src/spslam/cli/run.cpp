@@ -2,179 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // `spslam run`: a data set in, a folder of results out.
 
-#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
-#include <exception>
-#include <thread>
 
 #include "spslam/cli/commands.h"
-#include "spslam/cli/run_folder.h"
-#include "spslam/cli/run_options.h"
+#include "spslam/cli/run_loop.h"
+#include "spslam/cli/run_results.h"
 #include "spslam/cli/run_samples.h"
 #include "spslam/cli/run_signal.h"
-#include "spslam/cli/run_tables.h"
-#include "spslam/eval/evaluation.h"
-#include "spslam/io/prefetch.h"
 #include "spslam/system/map_file.h"
 
 namespace spslam {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-struct RunArguments {
-  std::string dataset, output;
-  OptionArguments options;
-  DatasetOptions reading;
-  int start = 0;
-  int end = std::numeric_limits<int>::max();
-  int samples = 6;
-  std::string save_map, load_map;
-  bool localize = false;
-  bool sequential = false, realtime = false, ahead = false, overwrite = false, quiet = false;
-};
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Sleeps in short pieces, so that a signal ends it.
-void wait_until(Clock::time_point time) {
-  constexpr auto kPiece = std::chrono::milliseconds(20);
-  while (interruption() == 0 && Clock::now() < time)
-    std::this_thread::sleep_until(std::min(time, Clock::now() + kPiece));
-}
-
-// One line on a terminal, a few times a second.
-class ProgressLine {
- public:
-  ProgressLine(bool wanted, int frames)
-      : shown_(wanted && frames > 0 && isatty(fileno(stderr)) != 0), frames_(frames) {}
-  ~ProgressLine() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(int done, const TrackResult& result) {
-    if (!shown_ || (done < frames_ && seconds_since(last_) < 0.1)) return;
-    last_ = Clock::now();
-    constexpr int kWidth = 24;
-    const int filled = kWidth * done / frames_;
-    const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
-                            std::string(static_cast<std::size_t>(kWidth - filled), '.');
-    const char* state = option_names(result.status)[static_cast<std::size_t>(result.status)];
-    std::fprintf(stderr, "\r[%s] %d/%d  %.1f frames/s  %s  %d near\033[K", bar.c_str(), done, frames_,
-                 done / std::max(1e-9, seconds_since(start_)), state, result.near);
-    std::fflush(stderr);
-  }
-
- private:
-  bool shown_;
-  int frames_;
-  Clock::time_point start_ = Clock::now(), last_ = {};
-};
-
-void log_frame(const FrameRecord& frame, TrackStatus before) {
-  const TrackResult& result = frame.result;
-  if (result.status != before || !result.reason.empty())
-    spdlog::info("frame {}: {}{}{}", frame.index,
-                 option_names(result.status)[static_cast<std::size_t>(result.status)],
-                 result.reason.empty() ? "" : ": ", result.reason);
-}
-
-// Gives the frames to slam until their end, a signal or an exception, which is returned so that what was done
-// before it can be written.
-std::exception_ptr track_frames(const RunArguments& arguments, const Dataset& dataset, Prefetcher& frames,
-                                Slam& slam, RunRecord& record) {
-  ProgressLine progress(!arguments.quiet, std::min(arguments.end, dataset.size()) - arguments.start);
-  const Clock::time_point start = Clock::now();
-  TrackStatus before = TrackStatus::kInitializing;
-  std::exception_ptr failure;
-  try {
-    while (interruption() == 0) {
-      const std::optional<LoadedFrame> frame = frames.next();
-      if (!frame) break;
-      const double time = frame->pair.timestamp - dataset.timestamp(arguments.start);
-      if (arguments.realtime)
-        wait_until(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time)));
-      else if (!arguments.ahead)
-        slam.wait_for_map();
-      if (interruption() != 0) break;
-      record.frames.push_back({frame->index, frame->seconds, slam.track(frame->pair)});
-      log_frame(record.frames.back(), before);
-      before = record.frames.back().result.status;
-      progress.show(static_cast<int>(record.frames.size()), record.frames.back().result);
-    }
-    slam.finish();
-  } catch (const std::exception& error) {
-    spdlog::error("the run ends after {} frames: {}", record.frames.size(), error.what());
-    failure = std::current_exception();
-  }
-  record.wall_seconds = seconds_since(start);
-  record.trajectory = slam.trajectory();
-  record.keyframes = slam.keyframes();
-  record.mapping = slam.mapping();
-  record.loops = slam.loops();
-  record.landmarks = slam.landmark_count();
-  return failure;
-}
-
-// Against the data set's truth. Nothing without one, or if too little of it belongs to what was done.
-std::optional<Evaluation> evaluate_run(const Dataset& dataset, const RunRecord& record) {
-  if (!dataset.ground_truth()) return std::nullopt;
-  EvaluationOptions options;
-  options.planar = dataset.planar_ground_truth();
-  options.association.interpolate = options.planar;  // a GNSS receiver is slower than the camera
-  try {
-    return evaluate(stamped_trajectory(record), *dataset.ground_truth(), options);
-  } catch (const InputError& error) {
-    spdlog::warn("no errors are computed: {}", error.what());
-    return std::nullopt;
-  }
-}
-
-// Every file is tried, whatever became of the others; throws the first failure.
-void write_results(const ResultFolder& folder, const Dataset& dataset, const RunRecord& record,
-                   const std::optional<Evaluation>& evaluation) {
-  std::exception_ptr failure;
-  const auto write = [&](const char* name, const std::string& text) {
-    try {
-      folder.write(name, text);
-    } catch (const OutputError& error) {
-      spdlog::error("{}", error.what());
-      if (!failure) failure = std::current_exception();
-    }
-  };
-  write("trajectory_tum.txt", format_tum(stamped_trajectory(record)));
-  write("trajectory_kitti.txt", format_kitti_poses(trajectory_of_every_frame(record)));
-  write("frames.csv", frames_csv(record));
-  write("keyframes.csv", keyframes_csv(record));
-  write("mapping.csv", mapping_csv(record));
-  write("loops.csv", loops_csv(record));
-  write("timing.json", timing_json(record, dataset.description()));
-  if (evaluation) write("metrics.json", json_report(*evaluation));
-  if (failure) std::rethrow_exception(failure);
-}
-
-std::string report_text(const std::string& folder, const RunRecord& record,
-                        const std::optional<Evaluation>& evaluation) {
-  std::string text = fmt::format(
-      "frames       {} ({}); {} keyframes, {} landmarks\n"
-      "way          {:.3f} m\n"
-      "speed        {:.1f} frames/s, median {:.1f} ms a frame, peak memory {:.0f} MB\n",
-      record.frames.size(), state_counts(record), record.keyframes.size(), record.landmarks,
-      path_length(stamped_trajectory(record)),
-      static_cast<double>(record.frames.size()) / std::max(1e-9, record.wall_seconds),
-      median_frame_ms(record), peak_memory_mb());
-  if (evaluation) text += brief_report(*evaluation);
-  if (record.trajectory.empty()) text += "note: no frame could be tracked; frames.csv says why\n";
-  return text + "results      " + folder + "\n";
-}
 
 // The map to continue, if one is given; refused if it is of another rig.
 Map known_map(const RunArguments& arguments, const StereoRig& rig) {

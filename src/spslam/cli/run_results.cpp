@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "spslam/cli/run_results.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include "spslam/base/error.h"
+
+namespace spslam {
+
+std::optional<Evaluation> evaluate_run(const Dataset& dataset, const RunRecord& record) {
+  if (!dataset.ground_truth()) return std::nullopt;
+  EvaluationOptions options;
+  options.planar = dataset.planar_ground_truth();
+  options.association.interpolate = options.planar;  // a GNSS receiver is slower than the camera
+  try {
+    return evaluate(stamped_trajectory(record), *dataset.ground_truth(), options);
+  } catch (const InputError& error) {
+    spdlog::warn("no errors are computed: {}", error.what());
+    return std::nullopt;
+  }
+}
+
+void write_results(const ResultFolder& folder, const Dataset& dataset, const RunRecord& record,
+                   const std::optional<Evaluation>& evaluation) {
+  std::exception_ptr failure;
+  const auto write = [&](const char* name, const std::string& text) {
+    try {
+      folder.write(name, text);
+    } catch (const OutputError& error) {
+      spdlog::error("{}", error.what());
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  write("trajectory_tum.txt", format_tum(stamped_trajectory(record)));
+  write("trajectory_kitti.txt", format_kitti_poses(trajectory_of_every_frame(record)));
+  write("frames.csv", frames_csv(record));
+  write("keyframes.csv", keyframes_csv(record));
+  write("mapping.csv", mapping_csv(record));
+  write("loops.csv", loops_csv(record));
+  write("timing.json", timing_json(record, dataset.description()));
+  if (evaluation) write("metrics.json", json_report(*evaluation));
+  if (failure) std::rethrow_exception(failure);
+}
+
+std::string report_text(const std::string& folder, const RunRecord& record,
+                        const std::optional<Evaluation>& evaluation) {
+  std::string text = fmt::format(
+      "frames       {} ({}); {} keyframes, {} landmarks\n"
+      "way          {:.3f} m\n"
+      "speed        {:.1f} frames/s, median {:.1f} ms a frame, peak memory {:.0f} MB\n",
+      record.frames.size(), state_counts(record), record.keyframes.size(), record.landmarks,
+      path_length(stamped_trajectory(record)),
+      static_cast<double>(record.frames.size()) / std::max(1e-9, record.wall_seconds),
+      median_frame_ms(record), peak_memory_mb());
+  if (evaluation) text += brief_report(*evaluation);
+  if (record.trajectory.empty()) text += "note: no frame could be tracked; frames.csv says why\n";
+  return text + "results      " + folder + "\n";
+}
+
+}  // namespace spslam
