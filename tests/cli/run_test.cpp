@@ -12,9 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
-#include "cli/process.h"
-#include "spslam/eval/run_folder.h"
-#include "system/synthetic_scene.h"
+#include "cli/run_fixture.h"
 
 namespace spslam {
 namespace {
@@ -26,38 +24,6 @@ using testing::HasSubstr;
 constexpr const char* kFiles[] = {
     "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv", "mapping.csv", "loops.csv",
     "config.yaml",        "metrics.json",         "timing.json", "log.txt",       "samples"};
-
-// A rendered data set and a place for results.
-class Run : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    scene_folder = std::make_unique<TemporaryFolder>();
-    test::write_scene(scene_folder->path("scene"));
-  }
-  static void TearDownTestSuite() { scene_folder.reset(); }
-
-  static std::string scene() { return scene_folder->path("scene"); }
-  // A copy that a test may damage.
-  std::string own_scene() const {
-    fs::copy(scene(), scratch.path("scene"), fs::copy_options::recursive);
-    return scratch.path("scene");
-  }
-  std::string out(const std::string& name = "out") const { return scratch.path(name); }
-  std::string result(const std::string& file) const { return read_file(out() + "/" + file); }
-  std::size_t lines(const std::string& file) const {
-    const std::string text = result(file);
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-  }
-  std::vector<ReportFrame> frames() const { return parse_frames_csv(result("frames.csv"), "frames.csv"); }
-  ProcessResult run(std::vector<std::string> more, const std::string& dataset = scene()) const {
-    std::vector<std::string> arguments = {"run", dataset, "--output", out(), "--sequential"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_spslam(arguments);
-  }
-
-  TemporaryFolder scratch;
-  static inline std::unique_ptr<TemporaryFolder> scene_folder;
-};
 
 TEST_F(Run, WritesEveryFile) {
   const ProcessResult result_ = run({"--realtime"});
@@ -248,27 +214,6 @@ TEST_F(Run, CalibrationOfAnotherSizeIsAnInputError) {
   EXPECT_THAT(refused.err, AllOf(HasSubstr("640 x 400"), HasSubstr("320 x 200")));
 }
 
-TEST_F(Run, FolderWithFilesIsRefusedUnlessOverwritten) {
-  scratch.write("out/notes.txt", "mine");
-  scratch.write("out/metrics.json", "of an earlier run");
-  const ProcessResult refused = run({});
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("not empty"), HasSubstr("--overwrite")));
-  EXPECT_EQ(result("metrics.json"), "of an earlier run");
-  EXPECT_EQ(run({"--overwrite"}).exit_code, 0);
-  EXPECT_EQ(result("notes.txt"), "mine");
-  EXPECT_THAT(result("metrics.json"), HasSubstr("ate_m"));
-}
-
-TEST_F(Run, OutputThatCannotBeAFolder) {
-  const std::string file = scratch.write("file", "x");
-  for (const std::string& place : {file, file + "/below", std::string("/proc/spslam")}) {
-    const ProcessResult refused = run_spslam({"run", scene(), "--output", place});
-    EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.err, AllOf(HasSubstr(place), HasSubstr("--output")));
-  }
-}
-
 // The loop closer is not waited for, so there is none.
 TEST_F(Run, ThreadsWaitForTheMapAndGiveTheSequentialBytes) {
   ASSERT_EQ(run({"--set", "loop.enabled=false"}).exit_code, 0);
@@ -284,24 +229,6 @@ TEST_F(Run, AheadOfTheMapIsForThreadsAtTheirOwnPace) {
   EXPECT_EQ(run_spslam({"run", scene(), "--output", out(), "--ahead", "--realtime"}).exit_code, 2);
   EXPECT_EQ(run_spslam({"run", scene(), "--output", out(), "--ahead"}).exit_code, 0);
   EXPECT_EQ(frames().size(), 16U);
-}
-
-TEST_F(Run, FullDiskLosesNothingElse) {
-  fs::create_directories(out());
-  fs::create_symlink("/dev/full", out() + "/trajectory_tum.txt.partial");
-  const ProcessResult full = run({"--overwrite"});
-  EXPECT_EQ(full.exit_code, 1);
-  EXPECT_THAT(full.err, AllOf(HasSubstr("trajectory_tum.txt"), HasSubstr("space")));
-  EXPECT_FALSE(fs::exists(out() + "/trajectory_tum.txt"));
-  EXPECT_EQ(frames().size(), 16U);
-  EXPECT_EQ(lines("trajectory_kitti.txt"), 16U);
-}
-
-TEST_F(Run, FullDiskIsNoticedBeforeComputing) {
-  fs::create_directories(out());
-  fs::create_symlink("/dev/full", out() + "/config.yaml.partial");
-  EXPECT_EQ(run({"--overwrite"}).exit_code, 1);
-  EXPECT_FALSE(fs::exists(out() + "/frames.csv"));
 }
 
 class RunInterrupted : public Run, public testing::WithParamInterface<int> {};

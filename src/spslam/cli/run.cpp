@@ -8,27 +8,20 @@
 
 #include "spslam/cli/commands.h"
 #include "spslam/cli/run_loop.h"
+#include "spslam/cli/run_map.h"
 #include "spslam/cli/run_results.h"
 #include "spslam/cli/run_samples.h"
 #include "spslam/cli/run_signal.h"
-#include "spslam/system/map_file.h"
 
 namespace spslam {
 namespace {
-
-// The map to continue, if one is given; refused if it is of another rig.
-Map known_map(const RunArguments& arguments, const StereoRig& rig) {
-  if (arguments.load_map.empty()) return {};
-  SavedMap saved = load_map(arguments.load_map);
-  check_same_rig(saved.rig, rig);
-  return std::move(saved.map);
-}
 
 int run_dataset(const RunArguments& arguments) {
   SlamOptions options = effective_options(arguments.options);
   if (arguments.sequential) options.threads = Threads::kSequential;
   if (arguments.localize) options.localization.enabled = true;
   const std::unique_ptr<Dataset> dataset = open_dataset(arguments.dataset, arguments.reading);
+  check_map_target(arguments);
   Slam slam(dataset->rig(), options, known_map(arguments, dataset->rig()));
   Prefetcher frames(*dataset, arguments.start, arguments.end, 2);
   const ResultFolder folder(arguments.output, arguments.overwrite);
@@ -88,7 +81,9 @@ void add_run(CLI::App& app, Command& chosen) {
       ->type_name("DIR");
   add_option_arguments(*command, arguments->options);
   add_reading_options(*command, *arguments);
-  command->add_option("--save-map", arguments->save_map, "File for the map, at the end of the run")
+  command
+      ->add_option("--save-map", arguments->save_map,
+                   "File for the map, at the end of the run; one that exists needs --overwrite")
       ->type_name("FILE");
   command
       ->add_option("--load-map", arguments->load_map,
@@ -114,7 +109,8 @@ void add_run(CLI::App& app, Command& chosen) {
                  "Do not wait for the map before the next frame: less accurate, to see how much")
       ->excludes(sequential)
       ->excludes(realtime);
-  command->add_flag("--overwrite", arguments->overwrite, "Replace the results that are in the folder");
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Replace the results that are in the folder, and the file of --save-map");
   command->add_flag("--quiet,-q", arguments->quiet, "No progress, no report");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run_dataset(*arguments); }; });
 }

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// Where `spslam run` writes: what it refuses, what it replaces, and what is left when something cannot be
+// written.
+
+#include <gmock/gmock.h>
+
+#include "cli/run_fixture.h"
+
+namespace spslam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST_F(Run, FolderWithFilesIsRefusedUnlessOverwritten) {
+  scratch.write("out/notes.txt", "mine");
+  scratch.write("out/metrics.json", "of an earlier run");
+  const ProcessResult refused = run({});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("not empty"), HasSubstr("--overwrite")));
+  EXPECT_EQ(result("metrics.json"), "of an earlier run");
+  EXPECT_EQ(run({"--overwrite"}).exit_code, 0);
+  EXPECT_EQ(result("notes.txt"), "mine");
+  EXPECT_THAT(result("metrics.json"), HasSubstr("ate_m"));
+}
+
+TEST_F(Run, OutputThatCannotBeAFolder) {
+  const std::string file = scratch.write("file", "x");
+  for (const std::string& place : {file, file + "/below", std::string("/proc/spslam")}) {
+    const ProcessResult refused = run_spslam({"run", scene(), "--output", place});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, AllOf(HasSubstr(place), HasSubstr("--output")));
+  }
+}
+
+TEST_F(Run, FullDiskLosesNothingElse) {
+  fs::create_directories(out());
+  fs::create_symlink("/dev/full", out() + "/trajectory_tum.txt.partial");
+  const ProcessResult full = run({"--overwrite"});
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.err, AllOf(HasSubstr("trajectory_tum.txt"), HasSubstr("space")));
+  EXPECT_FALSE(fs::exists(out() + "/trajectory_tum.txt"));
+  EXPECT_EQ(frames().size(), 16U);
+  EXPECT_EQ(lines("trajectory_kitti.txt"), 16U);
+}
+
+TEST_F(Run, FullDiskIsNoticedBeforeComputing) {
+  fs::create_directories(out());
+  fs::create_symlink("/dev/full", out() + "/config.yaml.partial");
+  EXPECT_EQ(run({"--overwrite"}).exit_code, 1);
+  EXPECT_FALSE(fs::exists(out() + "/frames.csv"));
+}
+
+TEST_F(Run, AMapThatCannotBeSavedIsSaidBeforeComputing) {
+  scratch.write("file", "x");
+  for (const std::string& map : {scratch.path("none/a.map"), scratch.path(""), scratch.path("file/a.map"),
+                                 std::string("/dev/full"), std::string("/proc/a.map")}) {
+    const ProcessResult refused = run({"--save-map", map, "--overwrite"});
+    EXPECT_EQ(refused.exit_code, 1) << map;
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("--save-map"), HasSubstr(map.substr(0, map.size() - 1))));
+    EXPECT_FALSE(fs::exists(out())) << map;
+  }
+}
+
+TEST_F(Run, AMapIsReplacedOnlyIfThatIsSaid) {
+  const std::string map = scratch.write("photo.map", "something dear");
+  const ProcessResult refused = run({"--save-map", map});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("photo.map exists"), HasSubstr("--overwrite")));
+  EXPECT_EQ(read_file(map), "something dear");
+  EXPECT_FALSE(fs::exists(out()));
+  EXPECT_EQ(run({"--save-map", map, "--overwrite"}).exit_code, 0);
+  EXPECT_THAT(read_file(map), testing::StartsWith("SPSLMAP"));
+  EXPECT_EQ(run({"--save-map", out("other") + "/a.map"}).exit_code, 1) << "that folder is not made";
+}
+
+TEST_F(Run, AMapMayLieInTheFolderOfTheResults) {
+  const ProcessResult done = run({"--save-map", out() + "/a.map", "--samples", "0"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(result("a.map"), testing::StartsWith("SPSLMAP"));
+}
+
+}  // namespace
+}  // namespace spslam
