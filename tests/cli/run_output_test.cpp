@@ -44,6 +44,20 @@ TEST_F(Run, FullDiskLosesNothingElse) {
   EXPECT_FALSE(fs::exists(out() + "/trajectory_tum.txt"));
   EXPECT_EQ(frames().size(), 16U);
   EXPECT_EQ(lines("trajectory_kitti.txt"), 16U);
+  EXPECT_THAT(full.out, HasSubstr("16 tracking")) << "the summary";
+}
+
+TEST_F(Run, FullDiskDoesNotCostTheMap) {
+  fs::create_directories(out());
+  fs::create_symlink("/dev/full", out() + "/trajectory_tum.txt.partial");
+  fs::create_symlink("/dev/full", out() + "/loops.csv.partial");
+  scratch.write("out/samples", "a file where a folder should be");
+  const ProcessResult full = run({"--overwrite", "--save-map", scratch.path("a.map")});
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.err, AllOf(HasSubstr("3 things failed"), HasSubstr("trajectory_tum.txt"),
+                              HasSubstr("loops.csv"), HasSubstr("samples")));
+  EXPECT_THAT(full.out, AllOf(HasSubstr("16 tracking"), HasSubstr("results ")));
+  EXPECT_THAT(read_file(scratch.path("a.map")), testing::StartsWith("SPSLMAP"));
 }
 
 TEST_F(Run, FullDiskIsNoticedBeforeComputing) {

@@ -34,17 +34,21 @@ int run_dataset(const RunArguments& arguments) {
   RunRecord record;
   const std::exception_ptr failure = track_frames(arguments, *dataset, frames, slam, record);
   const int signal = interruption();
+  Attempts attempts;
+  if (failure) attempts.attempt([&] { std::rethrow_exception(failure); });
   const std::optional<Evaluation> evaluation = evaluate_run(*dataset, record);
   const std::string report = report_text(arguments.output, record, evaluation);
   spdlog::info("{} {} frames: {}", signal == 0 ? "done" : "interrupted after", record.frames.size(),
                state_counts(record));
-  write_results(folder, *dataset, record, evaluation);
-  if (!arguments.save_map.empty()) slam.save(arguments.save_map);
+  write_results(folder, *dataset, record, evaluation, attempts);
+  if (!arguments.save_map.empty()) attempts.attempt([&] { slam.save(arguments.save_map); });
   if (signal == 0 && !failure && !record.frames.empty())
-    write_samples(folder, *dataset, options.tracker, record.frames.front().index, record.frames.back().index,
-                  arguments.samples);
+    attempts.attempt([&] {
+      write_samples(folder, *dataset, options.tracker, record.frames.front().index,
+                    record.frames.back().index, arguments.samples);
+    });
   if (!arguments.quiet) std::fputs((dataset->description() + "\n" + report).c_str(), stdout);
-  if (failure) std::rethrow_exception(failure);
+  attempts.throw_failures();
   if (signal == 0) return 0;
   std::fprintf(stderr, "spslam: interrupted after %zu frames; their results are in %s\n",
                record.frames.size(), arguments.output.c_str());

@@ -90,8 +90,7 @@ std::exception_ptr track_frames(const RunArguments& arguments, const Dataset& da
       progress.show(static_cast<int>(record.frames.size()), record.frames.back().result);
     }
     slam.finish();
-  } catch (const std::exception& error) {
-    spdlog::error("the run ends after {} frames: {}", record.frames.size(), error.what());
+  } catch (...) {
     failure = std::current_exception();
   }
   record.wall_seconds = seconds_since(start);

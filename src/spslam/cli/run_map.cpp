@@ -26,7 +26,8 @@ void check_map_target(const RunArguments& arguments) {
   std::error_code ignored;
   // The folder of the results is made, and tried, by the run itself.
   const fs::path results = fs::absolute(fs::path(arguments.output) / "").lexically_normal();
-  if (!fs::exists(results, ignored) && map.has_filename() && map.parent_path() == results.parent_path()) return;
+  if (!fs::exists(results, ignored) && map.has_filename() && map.parent_path() == results.parent_path())
+    return;
   try {
     check_file_writable(map);
   } catch (const OutputError& error) {

@@ -23,16 +23,27 @@ std::optional<Evaluation> evaluate_run(const Dataset& dataset, const RunRecord& 
   }
 }
 
+void Attempts::attempt(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    failures_.emplace_back(error.what());
+  }
+}
+
+void Attempts::throw_failures() const {
+  if (failures_.empty()) return;
+  if (failures_.size() == 1) throw OutputError(failures_.front());
+  std::string text = fmt::format("{} things failed, the rest is done:", failures_.size());
+  for (const std::string& failure : failures_) text += "\n  " + failure;
+  throw OutputError(text);
+}
+
 void write_results(const ResultFolder& folder, const Dataset& dataset, const RunRecord& record,
-                   const std::optional<Evaluation>& evaluation) {
-  std::exception_ptr failure;
+                   const std::optional<Evaluation>& evaluation, Attempts& attempts) {
   const auto write = [&](const char* name, const std::string& text) {
-    try {
-      folder.write(name, text);
-    } catch (const OutputError& error) {
-      spdlog::error("{}", error.what());
-      if (!failure) failure = std::current_exception();
-    }
+    attempts.attempt([&] { folder.write(name, text); });
   };
   write("trajectory_tum.txt", format_tum(stamped_trajectory(record)));
   write("trajectory_kitti.txt", format_kitti_poses(trajectory_of_every_frame(record)));
@@ -42,7 +53,6 @@ void write_results(const ResultFolder& folder, const Dataset& dataset, const Run
   write("loops.csv", loops_csv(record));
   write("timing.json", timing_json(record, dataset.description()));
   if (evaluation) write("metrics.json", json_report(*evaluation));
-  if (failure) std::rethrow_exception(failure);
 }
 
 std::string report_text(const std::string& folder, const RunRecord& record,
