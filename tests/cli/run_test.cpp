@@ -250,7 +250,29 @@ TEST_P(RunInterrupted, WritesWhatWasDone) {
     EXPECT_NE(result(file), "") << file;
 }
 
-INSTANTIATE_TEST_SUITE_P(Cli, RunInterrupted, testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(Cli, RunInterrupted, testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+TEST_F(Run, AKillLeavesTheLastCheckpoint) {
+  const std::string map = scratch.path("a.map");
+  RunningSpslam running({"run", scene(), "--output", out(), "--realtime", "--rate", "2", "--checkpoint",
+                         "0.1", "--set", "tracker.window_frames=2", "--save-map", map});
+  for (int i = 0; i < 6000 && !fs::exists(map); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  running.send(SIGKILL);
+  EXPECT_EQ(running.wait().exit_code, 128 + SIGKILL);
+  EXPECT_FALSE(fs::exists(out() + "/frames.csv"));
+  EXPECT_GE(parse_tum(result("trajectory_tum.txt"), "").size(), 1U);
+  EXPECT_EQ(run_spslam({"export-map", map, "-o", scratch.path("a.ply")}).exit_code, 0);
+}
+
+TEST_F(Run, CheckpointsChangeNothing) {
+  ASSERT_EQ(run({"--checkpoint", "0"}).exit_code, 0);
+  const std::string tum = result("trajectory_tum.txt"), keyframes = result("keyframes.csv");
+  ASSERT_EQ(run({"--overwrite", "--checkpoint", "0.000001", "--save-map", scratch.path("a.map")}).exit_code,
+            0);
+  EXPECT_EQ(result("trajectory_tum.txt"), tum);
+  EXPECT_EQ(result("keyframes.csv"), keyframes);
+}
 
 }  // namespace
 }  // namespace spslam

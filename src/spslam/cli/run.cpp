@@ -32,7 +32,8 @@ int run_dataset(const RunArguments& arguments) {
   spdlog::info("{}", dataset->description());
   watch_for_interruption();
   RunRecord record;
-  const std::exception_ptr failure = track_frames(arguments, *dataset, frames, slam, record);
+  Checkpoint checkpoint(arguments.checkpoint, folder.path() / "trajectory_tum.txt", arguments.save_map);
+  const std::exception_ptr failure = track_frames(arguments, *dataset, frames, slam, checkpoint, record);
   const int signal = interruption();
   Attempts attempts;
   if (failure) attempts.attempt([&] { std::rethrow_exception(failure); });
@@ -102,6 +103,14 @@ void add_run(CLI::App& app, Command& chosen) {
       ->add_option("--samples", arguments->samples,
                    "Pictures of the run's features, near and far, for its report")
       ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--checkpoint", arguments->checkpoint,
+          "Seconds after which trajectory_tum.txt, and the map of --save-map, are written as they are "
+          "then, for when the run is killed; 0: never")
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("SECONDS")
       ->capture_default_str();
   CLI::Option* sequential =
       command->add_flag("--sequential", arguments->sequential,

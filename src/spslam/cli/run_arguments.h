@@ -18,6 +18,7 @@ struct RunArguments {
   int start = 0;
   int end = std::numeric_limits<int>::max();
   int samples = 6;
+  double checkpoint = 30;  // s
   std::string save_map, load_map;
   bool localize = false;
   bool sequential = false, realtime = false, ahead = false, overwrite = false, quiet = false;

@@ -69,7 +69,7 @@ void log_frame(const FrameRecord& frame, TrackStatus before) {
 }  // namespace
 
 std::exception_ptr track_frames(const RunArguments& arguments, const Dataset& dataset, Prefetcher& frames,
-                                Slam& slam, RunRecord& record) {
+                                Slam& slam, Checkpoint& checkpoint, RunRecord& record) {
   ProgressLine progress(!arguments.quiet, std::min(arguments.end, dataset.size()) - arguments.start);
   const Clock::time_point start = Clock::now();
   TrackStatus before = TrackStatus::kInitializing;
@@ -88,6 +88,7 @@ std::exception_ptr track_frames(const RunArguments& arguments, const Dataset& da
       log_frame(record.frames.back(), before);
       before = record.frames.back().result.status;
       progress.show(static_cast<int>(record.frames.size()), record.frames.back().result);
+      checkpoint.write_if_due(slam);
     }
     slam.finish();
   } catch (...) {

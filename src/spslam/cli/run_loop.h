@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "spslam/cli/run_arguments.h"
+#include "spslam/cli/run_checkpoint.h"
 #include "spslam/cli/run_tables.h"
 #include "spslam/io/prefetch.h"
 
@@ -14,6 +15,6 @@ namespace spslam {
 // Gives the frames to slam until their end, a signal or an exception, which is returned so that what was done
 // before it can be written.
 std::exception_ptr track_frames(const RunArguments& arguments, const Dataset& dataset, Prefetcher& frames,
-                                Slam& slam, RunRecord& record);
+                                Slam& slam, Checkpoint& checkpoint, RunRecord& record);
 
 }  // namespace spslam

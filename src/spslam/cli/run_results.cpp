@@ -16,7 +16,7 @@ std::optional<Evaluation> evaluate_run(const Dataset& dataset, const RunRecord& 
   options.planar = dataset.planar_ground_truth();
   options.association.interpolate = options.planar;  // a GNSS receiver is slower than the camera
   try {
-    return evaluate(stamped_trajectory(record), *dataset.ground_truth(), options);
+    return evaluate(stamped_trajectory(record.trajectory), *dataset.ground_truth(), options);
   } catch (const InputError& error) {
     spdlog::warn("no errors are computed: {}", error.what());
     return std::nullopt;
@@ -45,7 +45,7 @@ void write_results(const ResultFolder& folder, const Dataset& dataset, const Run
   const auto write = [&](const char* name, const std::string& text) {
     attempts.attempt([&] { folder.write(name, text); });
   };
-  write("trajectory_tum.txt", format_tum(stamped_trajectory(record)));
+  write("trajectory_tum.txt", format_tum(stamped_trajectory(record.trajectory)));
   write("trajectory_kitti.txt", format_kitti_poses(trajectory_of_every_frame(record)));
   write("frames.csv", frames_csv(record));
   write("keyframes.csv", keyframes_csv(record));
@@ -62,7 +62,7 @@ std::string report_text(const std::string& folder, const RunRecord& record,
       "way          {:.3f} m\n"
       "speed        {:.1f} frames/s, median {:.1f} ms a frame, peak memory {:.0f} MB\n",
       record.frames.size(), state_counts(record), record.keyframes.size(), record.landmarks,
-      path_length(stamped_trajectory(record)),
+      path_length(stamped_trajectory(record.trajectory)),
       static_cast<double>(record.frames.size()) / std::max(1e-9, record.wall_seconds),
       median_frame_ms(record), peak_memory_mb());
   if (evaluation) text += brief_report(*evaluation);

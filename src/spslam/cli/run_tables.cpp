@@ -172,10 +172,9 @@ std::string loops_csv(const RunRecord& record) {
   return text;
 }
 
-Trajectory stamped_trajectory(const RunRecord& record) {
+Trajectory stamped_trajectory(const std::vector<TrajectoryPose>& poses) {
   Trajectory trajectory;
-  for (const TrajectoryPose& pose : record.trajectory)
-    trajectory.push_back({pose.timestamp, pose.world_from_camera});
+  for (const TrajectoryPose& pose : poses) trajectory.push_back({pose.timestamp, pose.world_from_camera});
   return trajectory;
 }
 

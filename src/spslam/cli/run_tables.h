@@ -36,7 +36,7 @@ std::string mapping_csv(const RunRecord& record);
 // loops.csv: each place that a keyframe was compared with, how far that went, and the motion where it was
 // accepted.
 std::string loops_csv(const RunRecord& record);
-Trajectory stamped_trajectory(const RunRecord& record);
+Trajectory stamped_trajectory(const std::vector<TrajectoryPose>& poses);
 // A row for each frame given: one without a pose of its own repeats the pose before it, or, before the first,
 // the first pose. Empty if no frame has a pose.
 Trajectory trajectory_of_every_frame(const RunRecord& record);
