@@ -14,8 +14,11 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-TEST_F(Run, FolderWithFilesIsRefusedUnlessOverwritten) {
+constexpr const char* kOurConfig = "# spslam 0.1.0, of an earlier run\n";
+
+TEST_F(Run, ResultsAreReplacedOnlyIfThatIsSaid) {
   scratch.write("out/notes.txt", "mine");
+  scratch.write("out/config.yaml", kOurConfig);
   scratch.write("out/metrics.json", "of an earlier run");
   const ProcessResult refused = run({});
   EXPECT_EQ(refused.exit_code, 1);
@@ -24,6 +27,32 @@ TEST_F(Run, FolderWithFilesIsRefusedUnlessOverwritten) {
   EXPECT_EQ(run({"--overwrite"}).exit_code, 0);
   EXPECT_EQ(result("notes.txt"), "mine");
   EXPECT_THAT(result("metrics.json"), HasSubstr("ate_m"));
+  EXPECT_EQ(run({"--overwrite"}).exit_code, 0);
+}
+
+// A web site's report.html, say.
+TEST_F(Run, AFolderOfSomethingElseIsLeftAlone) {
+  const std::vector<std::vector<std::pair<const char*, const char*>>> folders = {
+      {{"notes.txt", "mine"}},
+      {{"report.html", "mine"}},
+      {{"config.yaml", "port: 80\n"}},
+      {{"log.txt", "12:00 started\n"}},
+      {{"config.yaml", kOurConfig}, {"log.txt", "12:00 started\n"}}};
+  for (const auto& files : folders) {
+    fs::remove_all(out());
+    for (const auto& [name, text] : files) scratch.write(std::string("out/") + name, text);
+    const ProcessResult refused = run({"--overwrite"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("no results of a run"), HasSubstr("--output")));
+    for (const auto& [name, text] : files) EXPECT_EQ(result(name), text);
+    EXPECT_EQ(std::distance(fs::directory_iterator(out()), {}), std::ssize(files));
+  }
+}
+
+TEST_F(Run, WhatFailedAtOnceNeedsNoOverwrite) {
+  scratch.write("out/log.txt", "2026-01-01 12:00:00.000 info spslam 0.1.0\n");
+  EXPECT_EQ(run({"--samples", "0"}).exit_code, 0);
+  EXPECT_EQ(run({"--samples", "0"}).exit_code, 1) << "now there are results";
 }
 
 TEST_F(Run, OutputThatCannotBeAFolder) {
@@ -36,7 +65,7 @@ TEST_F(Run, OutputThatCannotBeAFolder) {
 }
 
 TEST_F(Run, FullDiskLosesNothingElse) {
-  fs::create_directories(out());
+  scratch.write("out/config.yaml", kOurConfig);
   fs::create_symlink("/dev/full", out() + "/trajectory_tum.txt.partial");
   const ProcessResult full = run({"--overwrite"});
   EXPECT_EQ(full.exit_code, 1);
@@ -48,7 +77,7 @@ TEST_F(Run, FullDiskLosesNothingElse) {
 }
 
 TEST_F(Run, FullDiskDoesNotCostTheMap) {
-  fs::create_directories(out());
+  scratch.write("out/config.yaml", kOurConfig);
   fs::create_symlink("/dev/full", out() + "/trajectory_tum.txt.partial");
   fs::create_symlink("/dev/full", out() + "/loops.csv.partial");
   scratch.write("out/samples", "a file where a folder should be");
@@ -61,7 +90,7 @@ TEST_F(Run, FullDiskDoesNotCostTheMap) {
 }
 
 TEST_F(Run, FullDiskIsNoticedBeforeComputing) {
-  fs::create_directories(out());
+  scratch.write("out/config.yaml", kOurConfig);
   fs::create_symlink("/dev/full", out() + "/config.yaml.partial");
   EXPECT_EQ(run({"--overwrite"}).exit_code, 1);
   EXPECT_FALSE(fs::exists(out() + "/frames.csv"));

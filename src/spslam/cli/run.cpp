@@ -28,7 +28,7 @@ int run_dataset(const RunArguments& arguments) {
   folder.write("config.yaml", std::string("# spslam " SPSLAM_VERSION ", preset ") +
                                   preset_name(arguments.options.preset) +
                                   "; spslam run --config reads this file\n" + to_yaml(options));
-  spdlog::info("spslam " SPSLAM_VERSION ", preset {}", preset_name(arguments.options.preset));
+  spdlog::info("preset {}", preset_name(arguments.options.preset));
   spdlog::info("{}", dataset->description());
   watch_for_interruption();
   RunRecord record;
