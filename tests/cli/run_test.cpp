@@ -84,6 +84,25 @@ TEST_F(Run, EffectiveConfigGivesTheSameRunAgain) {
   const std::string config = scratch.write("first.yaml", result("config.yaml"));
   ASSERT_EQ(run({"--overwrite", "--config", config}).exit_code, 0);
   EXPECT_EQ(result("trajectory_tum.txt"), first);
+  EXPECT_THAT(result("config.yaml"), AllOf(HasSubstr("# options from: " + config),
+                                           HasSubstr("# options: preset baseline with threads=sequential, "
+                                                     "tracker.follow.max_missed=3\n")));
+}
+
+TEST_F(Run, SaysWhatWasRun) {
+  const std::string map = scratch.path("a \n map"), calibration = scene() + "/calib.txt";
+  ASSERT_EQ(
+      run({"--start", "2", "--end", "12", "--rate", "5", "--calibration", calibration, "--save-map", map})
+          .exit_code,
+      0);
+  for (const char* file : {"config.yaml", "log.txt"})
+    EXPECT_THAT(result(file),
+                AllOf(HasSubstr("spslam 0."), HasSubstr("spslam run " + scene() + " --output " + out()),
+                      HasSubstr("data set: " + scene()), HasSubstr("frames: --start 2, --end 12"),
+                      HasSubstr("rate: 5"), HasSubstr("calibration: " + calibration),
+                      HasSubstr("saved map: '" + scratch.path("a ? map'"))))
+        << file;
+  EXPECT_EQ(run_spslam({"config", "--config", out() + "/config.yaml"}).exit_code, 0);
 }
 
 TEST_F(Run, TwiceGivesTheSameBytes) {

@@ -9,6 +9,7 @@
 #include "spslam/cli/commands.h"
 #include "spslam/cli/run_loop.h"
 #include "spslam/cli/run_map.h"
+#include "spslam/cli/run_provenance.h"
 #include "spslam/cli/run_results.h"
 #include "spslam/cli/run_samples.h"
 #include "spslam/cli/run_signal.h"
@@ -25,10 +26,9 @@ int run_dataset(const RunArguments& arguments) {
   Slam slam(dataset->rig(), options, known_map(arguments, dataset->rig()));
   Prefetcher frames(*dataset, arguments.start, arguments.end, 2);
   const ResultFolder folder(arguments.output, arguments.overwrite);
-  folder.write("config.yaml", std::string("# spslam " SPSLAM_VERSION ", preset ") +
-                                  preset_name(arguments.options.preset) +
-                                  "; spslam run --config reads this file\n" + to_yaml(options));
-  spdlog::info("preset {}", preset_name(arguments.options.preset));
+  const std::vector<std::string> origin = provenance(arguments, options);
+  for (const std::string& line : origin) spdlog::info("{}", line);
+  folder.write("config.yaml", config_text(origin, options));
   spdlog::info("{}", dataset->description());
   watch_for_interruption();
   RunRecord record;
