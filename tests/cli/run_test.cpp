@@ -8,8 +8,10 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <thread>
 
 #include "cli/run_fixture.h"
@@ -112,6 +114,40 @@ TEST_F(Run, TwiceGivesTheSameBytes) {
   ASSERT_EQ(run({"--overwrite", "--quiet"}).exit_code, 0);
   EXPECT_EQ(result("trajectory_tum.txt"), tum);
   EXPECT_EQ(result("trajectory_kitti.txt"), kitti);
+}
+
+// The n-th line of a table below its head, by the names of the columns.
+std::map<std::string, std::string> row_of(const std::string& table, std::size_t n) {
+  std::istringstream lines(table);
+  std::string head, line;
+  std::getline(lines, head);
+  for (std::size_t i = 0; i <= n; ++i) std::getline(lines, line);
+  std::map<std::string, std::string> row;
+  std::istringstream names(head), values(line);
+  for (std::string name; std::getline(names, name, ',');) std::getline(values, row[name], ',');
+  return row;
+}
+
+TEST_F(Run, KeyframesOfALoadedMapAreNotOfThisRunsFrames) {
+  const std::string map = scratch.path("a.map");
+  ASSERT_EQ(run({"--end", "8", "--save-map", map}).exit_code, 0);
+  EXPECT_EQ(row_of(result("keyframes.csv"), 0)["frame"], "0");
+  EXPECT_NE(row_of(result("keyframes.csv"), 0)["reason"], "loaded");
+  const std::size_t loaded = lines("keyframes.csv") - 1;
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--localize"}}) {
+    std::vector<std::string> arguments = {"--overwrite", "--start", "3", "--load-map", map};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ASSERT_EQ(run(arguments).exit_code, 0);
+    const std::string table = result("keyframes.csv");
+    ASSERT_GE(lines("keyframes.csv"), loaded);
+    for (std::size_t i = 0; i + 1 < lines("keyframes.csv"); ++i) {
+      auto row = row_of(table, i);
+      EXPECT_EQ(row["reason"] == "loaded", row["frame"].empty()) << i;
+      if (i == 0) EXPECT_EQ(row["reason"], "loaded");
+      if (!row["frame"].empty())
+        EXPECT_NEAR(std::stod(row["timestamp"]), 0.1 * std::stod(row["frame"]), 1e-6);
+    }
+  }
 }
 
 TEST_F(Run, PartOfTheFramesQuietly) {

@@ -23,7 +23,10 @@ int run_dataset(const RunArguments& arguments) {
   if (arguments.localize) options.localization.enabled = true;
   const std::unique_ptr<Dataset> dataset = open_dataset(arguments.dataset, arguments.reading);
   check_map_target(arguments);
-  Slam slam(dataset->rig(), options, known_map(arguments, dataset->rig()));
+  RunRecord record;
+  Map known = known_map(arguments, dataset->rig());
+  for (const auto& [id, keyframe] : known.keyframes()) record.loaded.insert(id);
+  Slam slam(dataset->rig(), options, std::move(known));
   Prefetcher frames(*dataset, arguments.start, arguments.end, 2);
   const ResultFolder folder(arguments.output, arguments.overwrite);
   const std::vector<std::string> origin = provenance(arguments, options);
@@ -31,7 +34,6 @@ int run_dataset(const RunArguments& arguments) {
   folder.write("config.yaml", config_text(origin, options));
   spdlog::info("{}", dataset->description());
   watch_for_interruption();
-  RunRecord record;
   Checkpoint checkpoint(arguments.checkpoint, folder.path() / "trajectory_tum.txt", arguments.save_map);
   const std::exception_ptr failure = track_frames(arguments, *dataset, frames, slam, checkpoint, record);
   const int signal = interruption();

@@ -123,16 +123,20 @@ std::string frames_csv(const RunRecord& record) {
 std::string keyframes_csv(const RunRecord& record) {
   std::string text = "keyframe,frame,timestamp,tx,ty,tz,qx,qy,qz,qw,sightings,reason\n";
   for (const KeyframeInfo& keyframe : record.keyframes) {
-    const FrameRecord* frame = find_frame(record, keyframe.frame);
+    // A loaded keyframe's frame is one of the run that made it; the numbers begin anew with each run.
+    const bool loaded = record.loaded.contains(keyframe.id);
+    const FrameRecord* frame = loaded ? nullptr : find_frame(record, keyframe.frame);
     const Eigen::Vector3d& t = keyframe.world_from_camera.translation;
     const Eigen::Quaterniond q(keyframe.world_from_camera.rotation);
     const double sign = q.w() < 0 ? -1 : 1;
-    text += fmt::format("{},{},{:.9f}", keyframe.id.value, frame ? frame->index : keyframe.frame.value,
+    text += fmt::format("{},{},{:.9f}", keyframe.id.value, frame ? std::to_string(frame->index) : "",
                         keyframe.timestamp);
     for (const double value : {t.x(), t.y(), t.z(), sign * q.x(), sign * q.y(), sign * q.z(), sign * q.w()})
       text += fmt::format(",{:.9e}", value);
     text += fmt::format(",{},{}\n", keyframe.sightings,
-                        frame ? csv_text(frame->result.keyframe.reason()) : std::string());
+                        frame    ? csv_text(frame->result.keyframe.reason())
+                        : loaded ? "loaded"
+                                 : "");
   }
   return text;
 }

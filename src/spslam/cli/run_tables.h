@@ -3,6 +3,7 @@
 // What a run has to tell, as the texts of its files.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct FrameRecord {
 };
 
 struct RunRecord {
+  std::set<KeyframeId> loaded;             // keyframes of the map that the run continued or localized in
   std::vector<FrameRecord> frames;         // in the order they were given
   std::vector<TrajectoryPose> trajectory;  // this and what follows: after Slam::finish()
   std::vector<KeyframeInfo> keyframes;
@@ -30,6 +32,7 @@ struct RunRecord {
 // frames.csv: one line a frame, times in ms, standard deviations in m and rad (the roots of the traces of the
 // covariance's blocks); near and far count what was found.
 std::string frames_csv(const RunRecord& record);
+// keyframes.csv: the map's keyframes in the end. Those of a loaded map have no frame and the reason "loaded".
 std::string keyframes_csv(const RunRecord& record);
 // mapping.csv: what local mapping did with each keyframe, those that were culled later among them.
 std::string mapping_csv(const RunRecord& record);
