@@ -140,6 +140,8 @@ TEST_F(Run, KeyframesOfALoadedMapAreNotOfThisRunsFrames) {
     ASSERT_EQ(run(arguments).exit_code, 0);
     const std::string table = result("keyframes.csv");
     ASSERT_GE(lines("keyframes.csv"), loaded);
+    if (!more.empty())
+      EXPECT_THAT(result("log.txt"), testing::ContainsRegex("found in the map at [01]\\.[0-9]+ s,"));
     for (std::size_t i = 0; i + 1 < lines("keyframes.csv"); ++i) {
       auto row = row_of(table, i);
       EXPECT_EQ(row["reason"] == "loaded", row["frame"].empty()) << i;
