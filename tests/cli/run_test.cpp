@@ -24,8 +24,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr const char* kFiles[] = {
-    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "keyframes.csv", "mapping.csv", "loops.csv",
-    "config.yaml",        "metrics.json",         "timing.json", "log.txt",       "samples"};
+    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv", "covariance.csv",
+    "keyframes.csv",      "mapping.csv",          "loops.csv",  "config.yaml",
+    "metrics.json",       "timing.json",          "log.txt",    "samples"};
 
 TEST_F(Run, WritesEveryFile) {
   const ProcessResult result_ = run({"--realtime"});
@@ -160,6 +161,30 @@ TEST_F(Run, PartOfTheFramesQuietly) {
   EXPECT_DOUBLE_EQ(frames()[0].timestamp, 0.4);
   EXPECT_THAT(result("frames.csv"), HasSubstr("\n4,0.4"));
   EXPECT_EQ(lines("trajectory_kitti.txt"), 5U);
+}
+
+// The whole of it, as a filter needs it: symmetric as given, positive, and what frames.csv makes of it.
+TEST_F(Run, CovarianceOfEachPose) {
+  const std::string dataset = own_scene();
+  fs::resize_file(fs::path(dataset) / "image_0" / test::scene_image_name(0), 0);
+  ASSERT_EQ(run({}, dataset).exit_code, 0);
+  ASSERT_EQ(lines("covariance.csv"), 17U);
+  EXPECT_THAT(result("covariance.csv"),
+              testing::StartsWith("frame,timestamp,tx_tx,tx_ty,tx_tz,tx_rx,tx_ry,tx_rz,ty_ty,"));
+  auto none = row_of(result("covariance.csv"), 0);
+  EXPECT_EQ(none.size(), 23U);
+  EXPECT_EQ(none["tx_tx"] + none["rz_rz"] + row_of(result("frames.csv"), 0)["sigma_translation"], "");
+  const std::vector<std::string> axes = {"tx", "ty", "tz", "rx", "ry", "rz"};
+  for (const std::size_t frame : {std::size_t{1}, std::size_t{15}}) {
+    auto row = row_of(result("covariance.csv"), frame);
+    Matrix6d covariance;
+    for (int i = 0; i < 6; ++i)
+      for (int j = i; j < 6; ++j)
+        covariance(i, j) = covariance(j, i) = std::stod(row[axes[i] + "_" + axes[j]]);
+    EXPECT_GT(covariance.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
+    const double sigma = std::stod(row_of(result("frames.csv"), frame)["sigma_rotation"]);
+    EXPECT_NEAR(std::sqrt(covariance.bottomRightCorner<3, 3>().trace()), sigma, 1e-3 * sigma);
+  }
 }
 
 struct BadImage {

@@ -48,6 +48,7 @@ void write_results(const ResultFolder& folder, const Dataset& dataset, const Run
   write("trajectory_tum.txt", format_tum(stamped_trajectory(record.trajectory)));
   write("trajectory_kitti.txt", format_kitti_poses(trajectory_of_every_frame(record)));
   write("frames.csv", frames_csv(record));
+  write("covariance.csv", covariance_csv(record));
   write("keyframes.csv", keyframes_csv(record));
   write("mapping.csv", mapping_csv(record));
   write("loops.csv", loops_csv(record));

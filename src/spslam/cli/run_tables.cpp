@@ -58,8 +58,9 @@ std::string frame_line(const FrameRecord& frame) {
   add(csv_number(r.far_weight, 4));
   add(r.keyframe_id.valid() ? "1" : "0");
   add(r.keyframe_id.valid() ? csv_text(r.keyframe.reason()) : "");
-  add(csv_small(std::sqrt(r.covariance.topLeftCorner<3, 3>().trace())));
-  add(csv_small(std::sqrt(r.covariance.bottomRightCorner<3, 3>().trace())));
+  const bool has_pose = r.status != TrackStatus::kInitializing;
+  add(has_pose ? csv_small(std::sqrt(r.covariance.topLeftCorner<3, 3>().trace())) : "");
+  add(has_pose ? csv_small(std::sqrt(r.covariance.bottomRightCorner<3, 3>().trace())) : "");
   add(csv_number(1e3 * frame.decode_seconds, 3));
   for (const Stage& stage : kStages) add(csv_number(1e3 * r.seconds.*stage.seconds, 3));
   return line + "\n";
@@ -117,6 +118,25 @@ std::string frames_csv(const RunRecord& record) {
   for (const Stage& stage : kStages) text += fmt::format(",{}_ms", stage.name);
   text += "\n";
   for (const FrameRecord& frame : record.frames) text += frame_line(frame);
+  return text;
+}
+
+std::string covariance_csv(const RunRecord& record) {
+  constexpr const char* kAxes[] = {"tx", "ty", "tz", "rx", "ry", "rz"};
+  std::string text = "frame,timestamp";
+  for (int i = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) text += fmt::format(",{}_{}", kAxes[i], kAxes[j]);
+  text += "\n";
+  for (const FrameRecord& frame : record.frames) {
+    const TrackResult& r = frame.result;
+    text += fmt::format("{},{:.9f}", frame.index, r.timestamp);
+    for (int i = 0; i < 6; ++i)
+      for (int j = i; j < 6; ++j) {
+        text += ",";
+        if (r.status != TrackStatus::kInitializing) text += scientific_text(r.covariance(i, j), 9);
+      }
+    text += "\n";
+  }
   return text;
 }
 

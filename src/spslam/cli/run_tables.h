@@ -30,8 +30,11 @@ struct RunRecord {
 };
 
 // frames.csv: one line a frame, times in ms, standard deviations in m and rad (the roots of the traces of the
-// covariance's blocks); near and far count what was found.
+// covariance's blocks; empty before the first pose); near and far count what was found.
 std::string frames_csv(const RunRecord& record);
+// covariance.csv: one line a frame, the upper triangle of the covariance of its pose (TrackResult) row by
+// row; empty before the first pose.
+std::string covariance_csv(const RunRecord& record);
 // keyframes.csv: the map's keyframes in the end. Those of a loaded map have no frame and the reason "loaded".
 std::string keyframes_csv(const RunRecord& record);
 // mapping.csv: what local mapping did with each keyframe, those that were culled later among them.
