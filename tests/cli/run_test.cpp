@@ -187,43 +187,6 @@ TEST_F(Run, CovarianceOfEachPose) {
   }
 }
 
-struct BadImage {
-  const char* name;
-  std::function<void(const fs::path&)> break_it;
-};
-
-void PrintTo(const BadImage& row, std::ostream* out) {
-  *out << row.name;
-}
-
-class RunBadImage : public Run, public testing::WithParamInterface<BadImage> {};
-
-TEST_P(RunBadImage, InTheMiddleCoastsAndTracksAgain) {
-  const std::string dataset = own_scene();
-  GetParam().break_it(fs::path(dataset) / "image_1" / test::scene_image_name(6));
-  const ProcessResult done = run({}, dataset);
-  EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("15 tracking, 1 coasting"));
-  ASSERT_EQ(frames().size(), 16U);
-  for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(frames()[i].state, i == 6 ? "coasting" : "tracking") << i;
-  EXPECT_EQ(lines("trajectory_kitti.txt"), 16U);
-  EXPECT_THAT(result("frames.csv"), HasSubstr("right image 000006.png"));
-  EXPECT_THAT(result("log.txt"), HasSubstr("frame 6: coasting: right image 000006.png"));
-  EXPECT_LT(nlohmann::json::parse(result("metrics.json"))["ate_m"]["rmse"], 0.02);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Cli, RunBadImage,
-    testing::Values(BadImage{"missing", [](const fs::path& image) { fs::remove(image); }},
-                    BadImage{"empty", [](const fs::path& image) { fs::resize_file(image, 0); }},
-                    BadImage{"truncated",
-                             [](const fs::path& image) { fs::resize_file(image, fs::file_size(image) / 2); }},
-                    BadImage{"one_pixel",
-                             [](const fs::path& image) {
-                               cv::imwrite(image.string(), cv::Mat::zeros(1, 1, CV_8UC1));
-                             }}),
-    [](const testing::TestParamInfo<BadImage>& row) { return std::string(row.param.name); });
-
 TEST_F(Run, FramesBeforeTheFirstPoseRepeatIt) {
   const std::string dataset = own_scene();
   for (const int i : {0, 1}) fs::resize_file(fs::path(dataset) / "image_0" / test::scene_image_name(i), 0);
@@ -234,19 +197,6 @@ TEST_F(Run, FramesBeforeTheFirstPoseRepeatIt) {
   ASSERT_EQ(rows.size(), 16U);
   EXPECT_EQ(rows[0].world_from_camera.translation, rows[2].world_from_camera.translation);
   EXPECT_NE(rows[2].world_from_camera.translation, rows[3].world_from_camera.translation);
-}
-
-TEST_F(Run, NothingUsableStillEndsWell) {
-  const std::string dataset = own_scene();
-  for (int i = 0; i < test::kSceneFrames; ++i)
-    for (const char* eye : {"image_0", "image_1"})
-      cv::imwrite((fs::path(dataset) / eye / test::scene_image_name(i)).string(),
-                  cv::Mat::zeros(200, 320, CV_8UC1));
-  const ProcessResult done = run({}, dataset);
-  EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, AllOf(HasSubstr("16 initializing"), HasSubstr("no frame could be tracked")));
-  EXPECT_EQ(frames().size(), 16U);
-  EXPECT_FALSE(fs::exists(out() + "/metrics.json"));
 }
 
 struct BadRun {

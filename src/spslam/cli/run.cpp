@@ -13,9 +13,23 @@
 #include "spslam/cli/run_results.h"
 #include "spslam/cli/run_samples.h"
 #include "spslam/cli/run_signal.h"
+#include "spslam/cli/run_summary.h"
 
 namespace spslam {
 namespace {
+
+// Says why it is not 0.
+int exit_code(const RunArguments& arguments, const RunRecord& record, int signal) {
+  if (signal != 0) {
+    std::fprintf(stderr, "spslam: interrupted after %zu frames; their results are in %s\n",
+                 record.frames.size(), arguments.output.c_str());
+    return 128 + signal;
+  }
+  const std::string problem = nothing_tracked(record);
+  if (problem.empty()) return 0;
+  std::fprintf(stderr, "spslam: %s; %s/frames.csv has each\n", problem.c_str(), arguments.output.c_str());
+  return 1;
+}
 
 int run_dataset(const RunArguments& arguments) {
   SlamOptions options = effective_options(arguments.options);
@@ -52,10 +66,7 @@ int run_dataset(const RunArguments& arguments) {
     });
   if (!arguments.quiet) std::fputs((dataset->description() + "\n" + report).c_str(), stdout);
   attempts.throw_failures();
-  if (signal == 0) return 0;
-  std::fprintf(stderr, "spslam: interrupted after %zu frames; their results are in %s\n",
-               record.frames.size(), arguments.output.c_str());
-  return 128 + signal;
+  return exit_code(arguments, record, signal);
 }
 
 void add_reading_options(CLI::App& command, RunArguments& arguments) {

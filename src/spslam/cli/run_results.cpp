@@ -56,19 +56,4 @@ void write_results(const ResultFolder& folder, const Dataset& dataset, const Run
   if (evaluation) write("metrics.json", json_report(*evaluation));
 }
 
-std::string report_text(const std::string& folder, const RunRecord& record,
-                        const std::optional<Evaluation>& evaluation) {
-  std::string text = fmt::format(
-      "frames       {} ({}); {} keyframes, {} landmarks\n"
-      "way          {:.3f} m\n"
-      "speed        {:.1f} frames/s, median {:.1f} ms a frame, peak memory {:.0f} MB\n",
-      record.frames.size(), state_counts(record), record.keyframes.size(), record.landmarks,
-      path_length(stamped_trajectory(record.trajectory)),
-      static_cast<double>(record.frames.size()) / std::max(1e-9, record.wall_seconds),
-      median_frame_ms(record), peak_memory_mb());
-  if (evaluation) text += brief_report(*evaluation);
-  if (record.trajectory.empty()) text += "note: no frame could be tracked; frames.csv says why\n";
-  return text + "results      " + folder + "\n";
-}
-
 }  // namespace spslam

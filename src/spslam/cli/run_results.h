@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// What a run leaves: its files and the report on the terminal.
+// The files that a run leaves.
 #pragma once
 
 #include <functional>
@@ -32,9 +32,5 @@ class Attempts {
 
 void write_results(const ResultFolder& folder, const Dataset& dataset, const RunRecord& record,
                    const std::optional<Evaluation>& evaluation, Attempts& attempts);
-
-// For the terminal.
-std::string report_text(const std::string& folder, const RunRecord& record,
-                        const std::optional<Evaluation>& evaluation);
 
 }  // namespace spslam

@@ -253,15 +253,4 @@ double median_frame_ms(const RunRecord& record) {
   return 1e3 * quantile(seconds, 0.5);
 }
 
-std::string state_counts(const RunRecord& record) {
-  std::string text;
-  for (const TrackStatus status :
-       {TrackStatus::kTracking, TrackStatus::kCoasting, TrackStatus::kLost, TrackStatus::kInitializing}) {
-    const auto count = std::count_if(record.frames.begin(), record.frames.end(),
-                                     [&](const FrameRecord& f) { return f.result.status == status; });
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, state_name(status));
-  }
-  return text.empty() ? "none" : text;
-}
-
 }  // namespace spslam

@@ -51,7 +51,5 @@ std::string timing_json(const RunRecord& record, const std::string& dataset);
 double peak_memory_mb();
 // Median of the whole tracking of a usable frame, in ms; 0 without one.
 double median_frame_ms(const RunRecord& record);
-// "49 tracking, 1 coasting"
-std::string state_counts(const RunRecord& record);
 
 }  // namespace spslam
