@@ -24,13 +24,13 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-RunningSpslam::RunningSpslam(const std::vector<std::string>& arguments) {
+RunningSpslam::RunningSpslam(const std::vector<std::string>& arguments, const std::string& other_out) {
   std::vector<std::string> words = {SPSLAM_BINARY};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const std::string out = scratch_.path("out"), err = scratch_.path("err");
+  const std::string out = other_out.empty() ? scratch_.path("out") : other_out, err = scratch_.path("err");
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
@@ -63,8 +63,8 @@ ProcessResult RunningSpslam::wait() {
   return result;
 }
 
-ProcessResult run_spslam(const std::vector<std::string>& arguments) {
-  return RunningSpslam(arguments).wait();
+ProcessResult run_spslam(const std::vector<std::string>& arguments, const std::string& out) {
+  return RunningSpslam(arguments, out).wait();
 }
 
 }  // namespace spslam

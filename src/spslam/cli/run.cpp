@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "spslam/base/error.h"
 #include "spslam/cli/commands.h"
 #include "spslam/cli/run_loop.h"
 #include "spslam/cli/run_map.h"
@@ -31,10 +32,20 @@ int exit_code(const RunArguments& arguments, const RunRecord& record, int signal
   return 1;
 }
 
-int run_dataset(const RunArguments& arguments) {
+SlamOptions options_of(const RunArguments& arguments) {
   SlamOptions options = effective_options(arguments.options);
   if (arguments.sequential) options.threads = Threads::kSequential;
   if (arguments.localize) options.localization.enabled = true;
+  if (arguments.ahead && options.threads == Threads::kSequential)
+    throw OptionError(
+        "--ahead: with threads=sequential tracking cannot run ahead of its map; give --set threads=parallel, "
+        "or "
+        "leave --ahead out");
+  return options;
+}
+
+int run_dataset(const RunArguments& arguments) {
+  const SlamOptions options = options_of(arguments);
   const std::unique_ptr<Dataset> dataset = open_dataset(arguments.dataset, arguments.reading);
   check_map_target(arguments);
   RunRecord record;

@@ -46,7 +46,7 @@ class ProgressLine {
     const int filled = kWidth * done / frames_;
     const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                             std::string(static_cast<std::size_t>(kWidth - filled), '.');
-    const char* state = option_names(result.status)[static_cast<std::size_t>(result.status)];
+    const char* state = state_name(result.status);
     std::fprintf(stderr, "\r[%s] %d/%d  %.1f frames/s  %s  %d near\033[K", bar.c_str(), done, frames_,
                  done / std::max(1e-9, seconds_since(start_)), state, result.near);
     std::fflush(stderr);
@@ -61,8 +61,7 @@ class ProgressLine {
 void log_frame(const FrameRecord& frame, TrackStatus before) {
   const TrackResult& result = frame.result;
   if (result.status != before || !result.reason.empty())
-    spdlog::info("frame {}: {}{}{}", frame.index,
-                 option_names(result.status)[static_cast<std::size_t>(result.status)],
+    spdlog::info("frame {}: {}{}{}", frame.index, state_name(result.status),
                  result.reason.empty() ? "" : ": ", result.reason);
 }
 

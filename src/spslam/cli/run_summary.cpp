@@ -14,15 +14,11 @@ namespace {
 
 constexpr std::size_t kMostReasons = 3;
 
-const char* state_name(TrackStatus status) {
-  return option_names(status)[static_cast<std::size_t>(status)];
-}
-
 bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-// "only 12 points agree" as "only # points agree"; "2.1" is one number.
+// What reasons are counted by: "only 12 points agree" as "only # points agree"; "2.1" is one number.
 std::string without_numbers(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -38,6 +34,10 @@ std::string without_numbers(const std::string& text) {
   return out;
 }
 
+std::string text_of(const ReasonCount& count) {
+  return count.reason + (count.others ? " (or with other numbers)" : "");
+}
+
 // How long a frame has been lost says nothing of why.
 std::string reason_of(const FrameRecord& frame) {
   const std::string& reason = frame.result.reason;
@@ -51,7 +51,7 @@ std::string reasons_line(const RunRecord& record) {
   std::string text;
   for (std::size_t i = 0; i < std::min(kMostReasons, reasons.size()); ++i)
     text +=
-        fmt::format("{:<12} {} x {}\n", i == 0 ? "not tracked" : "", reasons[i].frames, reasons[i].reason);
+        fmt::format("{:<12} {} x {}\n", i == 0 ? "not tracked" : "", reasons[i].frames, text_of(reasons[i]));
   if (reasons.size() > kMostReasons)
     text += fmt::format("{:<12} and {} other reasons, in frames.csv\n", "", reasons.size() - kMostReasons);
   return text;
@@ -82,8 +82,8 @@ std::vector<ReasonCount> reasons_of_untracked(const RunRecord& record) {
   for (const FrameRecord& frame : record.frames) {
     if (frame.result.status == TrackStatus::kTracking) continue;
     const std::string reason = reason_of(frame), kind = without_numbers(reason);
-    ReasonCount& count = by_kind.try_emplace(kind, ReasonCount{reason, 0}).first->second;
-    if (count.reason != reason) count.reason = kind;
+    ReasonCount& count = by_kind.try_emplace(kind, ReasonCount{reason, 0, false}).first->second;
+    count.others = count.others || reason != count.reason;
     ++count.frames;
   }
   std::vector<ReasonCount> all;
@@ -111,7 +111,7 @@ std::string nothing_tracked(const RunRecord& record) {
   const std::vector<ReasonCount> reasons = reasons_of_untracked(record);
   if (reasons.empty()) return "no frame was given";
   return fmt::format("none of the {} frames could be tracked; {} of them because: {}", record.frames.size(),
-                     reasons.front().frames, reasons.front().reason);
+                     reasons.front().frames, text_of(reasons.front()));
 }
 
 std::string report_text(const std::string& folder, const RunRecord& record,

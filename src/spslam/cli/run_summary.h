@@ -14,8 +14,9 @@ namespace spslam {
 std::string state_counts(const RunRecord& record);
 
 struct ReasonCount {
-  std::string reason;  // with # for numbers that differ
+  std::string reason;  // of the first of them
   int frames = 0;
+  bool others = false;  // some have other numbers in it
 };
 // Why frames were not tracked, the most frequent first. Reasons that differ in numbers only are one.
 std::vector<ReasonCount> reasons_of_untracked(const RunRecord& record);

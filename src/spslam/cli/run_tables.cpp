@@ -24,10 +24,6 @@ constexpr Stage kStages[] = {{"front_end", &StageTimes::front_end}, {"follow", &
                              {"motion", &StageTimes::motion},       {"window", &StageTimes::window},
                              {"keyframe", &StageTimes::keyframe},   {"total", &StageTimes::total}};
 
-const char* state_name(TrackStatus status) {
-  return option_names(status)[static_cast<std::size_t>(status)];
-}
-
 // In quotes if it must be; on one line.
 std::string csv_text(std::string text) {
   for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
@@ -110,6 +106,10 @@ double cpu_seconds() {
 }
 
 }  // namespace
+
+const char* state_name(TrackStatus status) {
+  return option_names(status)[static_cast<std::size_t>(status)];
+}
 
 std::string frames_csv(const RunRecord& record) {
   std::string text =

@@ -29,6 +29,8 @@ struct RunRecord {
   double wall_seconds = 0;
 };
 
+const char* state_name(TrackStatus status);
+
 // frames.csv: one line a frame, times in ms, standard deviations in m and rad (the roots of the traces of the
 // covariance's blocks; empty before the first pose); near and far count what was found.
 std::string frames_csv(const RunRecord& record);
