@@ -169,6 +169,17 @@ TEST(Evaluate, PlanarTakesRtkGroundTruth) {
   EXPECT_LT(json["rpe_deg_per_s"]["rmse"].get<double>(), 0.1);
 }
 
+TEST(Evaluate, WarnsOfATruthOfAnotherSequence) {
+  const TemporaryFolder files;
+  const std::string estimate = files.write("e.txt", tum(1)), truth = files.write("t.txt", tum(5.9));
+  EXPECT_THAT(run_spslam({"evaluate", estimate, truth}).out,
+              HasSubstr("WARNING: the estimate would have to be 5.9"));
+  const ProcessResult json = run_spslam({"evaluate", estimate, truth, "--json"});
+  EXPECT_EQ(json.exit_code, 0);
+  EXPECT_THAT(json.err, HasSubstr("warning: the estimate would have to be 5.9"));
+  EXPECT_EQ(nlohmann::json::parse(json.out)["warnings"].size(), 1U);
+}
+
 struct BadInput {
   const char* name;
   std::string estimate;  // "" leaves the file out

@@ -16,7 +16,9 @@ std::optional<Evaluation> evaluate_run(const Dataset& dataset, const RunRecord& 
   options.planar = dataset.planar_ground_truth();
   options.association.interpolate = options.planar;  // a GNSS receiver is slower than the camera
   try {
-    return evaluate(stamped_trajectory(record.trajectory), *dataset.ground_truth(), options);
+    Evaluation evaluation = evaluate(stamped_trajectory(record.trajectory), *dataset.ground_truth(), options);
+    for (const std::string& warning : evaluation.warnings) spdlog::info("errors: {}", warning);
+    return evaluation;
   } catch (const InputError& error) {
     spdlog::warn("no errors are computed: {}", error.what());
     return std::nullopt;

@@ -53,6 +53,7 @@ struct Evaluation {
   RpeResult rpe_per_frame;         // between neighbouring associated poses
   KittiResult kitti;               // always without alignment and scale
   std::vector<std::string> notes;  // what a reader of the figures must know, such as a degenerate alignment
+  std::vector<std::string> warnings;  // why they may be figures of nothing: a truth of another sequence
 };
 
 // Throws InputError if fewer than three poses can be associated, OptionError if an option is out of range.

@@ -90,6 +90,7 @@ std::string brief_report(const Evaluation& e, const ReportStyle& style) {
                         100 * e.share_within, e.truth_poses);
   if (style.kitti_lengths || e.kitti.count > 0) text += kitti_text(e.kitti, style.kitti_lengths);
   for (const std::string& note : e.notes) text += "note: " + note + "\n";
+  for (const std::string& warning : e.warnings) text += "WARNING: " + warning + "\n";
   return text;
 }
 
@@ -115,6 +116,7 @@ std::string json_report(const Evaluation& e) {
       {"rpe_deg_per_frame", json_of(e.rpe_per_frame.rotation)},
       {"kitti", json_of(e.kitti)},
       {"notes", e.notes},
+      {"warnings", e.warnings},
   };
   return json.dump(2) + "\n";
 }

@@ -34,6 +34,7 @@ table{border-collapse:collapse;font-variant-numeric:tabular-nums}th,td{padding:4
 th:first-child{text-align:left;font-weight:500}tr.head th{color:var(--dim);font-weight:500;border-bottom:1px solid var(--rule)}
 .images{display:grid;grid-template-columns:repeat(auto-fit,minmax(300px,1fr));gap:14px}figure{margin:0}img{width:100%;border-radius:6px}
 figcaption{color:var(--dim);font-size:13px}pre{font-size:12px;overflow-x:auto}
+.warning{color:var(--far);font-weight:600}
 .two,.three{display:grid;gap:0 14px}.two{grid-template-columns:repeat(auto-fit,minmax(430px,1fr))}
 .three{grid-template-columns:repeat(auto-fit,minmax(310px,1fr))}
 )";
@@ -155,7 +156,10 @@ std::string metrics_table(const Evaluation& e) {
   if (e.kitti.count > 0)
     html += fmt::format("; KITTI t_rel {:.3f} %, r_rel {:.3f} deg/100 m", e.kitti.t_rel, e.kitti.r_rel);
   for (const std::string& note : e.notes) html += "<br>" + html_escaped(note);
-  return html + "</p>\n";
+  html += "</p>\n";
+  for (const std::string& warning : e.warnings)
+    html += "<p class=\"warning\">" + html_escaped(warning) + "</p>\n";
+  return html;
 }
 
 // Neighbouring frames of one state that is not tracking make one band.
