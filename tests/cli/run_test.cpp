@@ -24,10 +24,19 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr const char* kFiles[] = {
-    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv", "covariance.csv",
-    "keyframes.csv",      "mapping.csv",          "loops.csv",  "config.yaml",
-    "metrics.json",       "timing.json",          "log.txt",    "samples"};
+constexpr const char* kFiles[] = {"trajectory_tum.txt",
+                                  "trajectory_kitti.txt",
+                                  "trajectory_kitti_times.txt",
+                                  "frames.csv",
+                                  "covariance.csv",
+                                  "keyframes.csv",
+                                  "mapping.csv",
+                                  "loops.csv",
+                                  "config.yaml",
+                                  "metrics.json",
+                                  "timing.json",
+                                  "log.txt",
+                                  "samples"};
 
 TEST_F(Run, WritesEveryFile) {
   const ProcessResult result_ = run({"--realtime"});
@@ -164,6 +173,10 @@ TEST_F(Run, PartOfTheFramesQuietly) {
   EXPECT_DOUBLE_EQ(frames()[0].timestamp, 0.4);
   EXPECT_THAT(result("frames.csv"), HasSubstr("\n4,0.4"));
   EXPECT_EQ(lines("trajectory_kitti.txt"), 5U);
+  const ProcessResult error =
+      run_spslam({"evaluate", out() + "/trajectory_kitti.txt", scene() + "/poses.txt", "--json"});
+  ASSERT_EQ(error.exit_code, 0) << error.err;
+  EXPECT_EQ(nlohmann::json::parse(error.out)["associated_poses"], 5) << "by trajectory_kitti_times.txt";
 }
 
 // The whole of it, as a filter needs it: symmetric as given, positive, and what frames.csv makes of it.

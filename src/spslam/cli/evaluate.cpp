@@ -81,8 +81,9 @@ void add_file_options(CLI::App& command, TrajectoryPairFiles& files) {
       ->transform(enum_names<TrajectoryFormat>())
       ->type_name("FORMAT");
   command
-      .add_option("--times", files.times,
-                  "Times of the rows of a KITTI file, one a line (default: times.txt beside it)")
+      .add_option(
+          "--times", files.times,
+          "Times of the rows of a KITTI file, one a line (default: NAME_times.txt or times.txt beside it)")
       ->type_name("FILE");
 }
 

@@ -20,10 +20,19 @@ namespace fs = std::filesystem;
 constexpr const char* kLogFile = "log.txt";
 constexpr const char* kConfigFile = "config.yaml";
 // Whatever a run, or a report on it, leaves.
-constexpr const char* kResults[] = {
-    "trajectory_tum.txt", "trajectory_kitti.txt", "frames.csv",  "covariance.csv",
-    "keyframes.csv",      "mapping.csv",          "loops.csv",   kConfigFile,
-    "metrics.json",       "timing.json",          "report.html", kLogFile};
+constexpr const char* kResults[] = {"trajectory_tum.txt",
+                                    "trajectory_kitti.txt",
+                                    "trajectory_kitti_times.txt",
+                                    "frames.csv",
+                                    "covariance.csv",
+                                    "keyframes.csv",
+                                    "mapping.csv",
+                                    "loops.csv",
+                                    kConfigFile,
+                                    "metrics.json",
+                                    "timing.json",
+                                    "report.html",
+                                    kLogFile};
 
 // Pictures only, and their folder if nothing else is in it.
 void remove_samples(const fs::path& folder) {

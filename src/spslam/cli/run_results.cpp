@@ -48,7 +48,9 @@ void write_results(const ResultFolder& folder, const Dataset& dataset, const Run
     attempts.attempt([&] { folder.write(name, text); });
   };
   write("trajectory_tum.txt", format_tum(stamped_trajectory(record.trajectory)));
-  write("trajectory_kitti.txt", format_kitti_poses(trajectory_of_every_frame(record)));
+  const Trajectory rows = trajectory_of_every_frame(record);
+  write("trajectory_kitti.txt", format_kitti_poses(rows));
+  write("trajectory_kitti_times.txt", times_text(rows));
   write("frames.csv", frames_csv(record));
   write("covariance.csv", covariance_csv(record));
   write("keyframes.csv", keyframes_csv(record));

@@ -213,6 +213,12 @@ Trajectory trajectory_of_every_frame(const RunRecord& record) {
   return trajectory;
 }
 
+std::string times_text(const Trajectory& rows) {
+  std::string text;
+  for (const StampedPose& row : rows) text += fixed_text(row.timestamp, 9) + "\n";
+  return text;
+}
+
 std::string timing_json(const RunRecord& record, const std::string& dataset) {
   Json stages = Json::object();
   std::vector<double> decode;

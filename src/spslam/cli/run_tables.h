@@ -48,6 +48,8 @@ Trajectory stamped_trajectory(const std::vector<TrajectoryPose>& poses);
 // A row for each frame given: one without a pose of its own repeats the pose before it, or, before the first,
 // the first pose. Empty if no frame has a pose.
 Trajectory trajectory_of_every_frame(const RunRecord& record);
+// The time of each row in s, as KITTI's times.txt has them.
+std::string times_text(const Trajectory& rows);
 // Stages of the frames whose pair was usable, and of all frames for decoding, in ms; totals in s and MB.
 std::string timing_json(const RunRecord& record, const std::string& dataset);
 double peak_memory_mb();
