@@ -88,7 +88,9 @@ TEST_F(Run, ReportReadsTheFolder) {
   ASSERT_EQ(run({}).exit_code, 0);
   const ProcessResult report = run_spslam({"report", out()});
   EXPECT_EQ(report.exit_code, 0) << report.err;
-  EXPECT_THAT(result("report.html"), AllOf(HasSubstr("front_end"), HasSubstr("tracker.window_frames")));
+  EXPECT_EQ(report.err, "");
+  EXPECT_THAT(result("report.html"), AllOf(HasSubstr("front_end"), HasSubstr("tracker.window_frames"),
+                                           HasSubstr("ATE RMSE"), HasSubstr("16 of 16")));
 }
 
 TEST_F(Run, EffectiveConfigGivesTheSameRunAgain) {
@@ -315,6 +317,9 @@ TEST_F(Run, AKillLeavesTheLastCheckpoint) {
   EXPECT_FALSE(fs::exists(out() + "/frames.csv"));
   EXPECT_GE(parse_tum(result("trajectory_tum.txt"), "").size(), 1U);
   EXPECT_EQ(run_spslam({"export-map", map, "-o", scratch.path("a.ply")}).exit_code, 0);
+  const ProcessResult report = run_spslam({"report", out()});
+  EXPECT_EQ(report.exit_code, 0);
+  EXPECT_THAT(report.err, HasSubstr("frames.csv is not there"));
 }
 
 TEST_F(Run, CheckpointsChangeNothing) {

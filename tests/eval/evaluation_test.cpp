@@ -102,6 +102,19 @@ TEST(Evaluation, StandingStillHasNoScaleToWarnOf) {
   EXPECT_THAT(evaluate(estimate, truth, {}).warnings, testing::IsEmpty());
 }
 
+TEST(Evaluation, JsonIsReadAgain) {
+  const Trajectory truth = figure_of_eight(2000), estimate = transformed(truth, some_motion(), 0.3);
+  Evaluation e = evaluate(estimate, truth, {});
+  ASSERT_GT(e.kitti.count, 0u);
+  const Evaluation again = parse_json_report(json_report(e), "metrics.json");
+  e.kitti.lengths.clear();
+  e.truth_from_estimate = {};
+  EXPECT_EQ(json_report(again), json_report(e));
+  for (const char* text : {"", "{}", "[1, 2]", "{\"align\": \"se4\"}"})
+    EXPECT_THAT(message_of<InputError>([&] { parse_json_report(text, "metrics.json"); }),
+                HasSubstr("metrics.json"));
+}
+
 TEST(Evaluation, ByIndexHasNoErrorPerSecond) {
   EvaluationOptions options;
   options.association.by_index = true;

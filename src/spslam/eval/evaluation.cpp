@@ -82,6 +82,7 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   result.estimate_poses = estimate.size();
   result.truth_poses = truth.size();
   std::vector<AssociatedPose> poses = associate(estimate, truth, options.association);
+  result.associated_poses = poses.size();
   require_enough(poses.size(), estimate, truth, options.association);
   if (options.planar) {
     poses = planar_poses(poses, options.up_estimate, options.up_truth);
