@@ -191,7 +191,7 @@ TEST_F(Run, CovarianceOfEachPose) {
               testing::StartsWith("frame,timestamp,tx_tx,tx_ty,tx_tz,tx_rx,tx_ry,tx_rz,ty_ty,"));
   auto none = row_of(result("covariance.csv"), 0);
   EXPECT_EQ(none.size(), 23U);
-  EXPECT_EQ(none["tx_tx"] + none["rz_rz"] + row_of(result("frames.csv"), 0)["sigma_translation"], "");
+  EXPECT_EQ(none["tx_tx"] + none["rz_rz"] + row_of(result("frames.csv"), 0)["sigma_translation_m"], "");
   const std::vector<std::string> axes = {"tx", "ty", "tz", "rx", "ry", "rz"};
   for (const std::size_t frame : {std::size_t{1}, std::size_t{15}}) {
     auto row = row_of(result("covariance.csv"), frame);
@@ -200,7 +200,7 @@ TEST_F(Run, CovarianceOfEachPose) {
       for (int j = i; j < 6; ++j)
         covariance(i, j) = covariance(j, i) = std::stod(row[axes[i] + "_" + axes[j]]);
     EXPECT_GT(covariance.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
-    const double sigma = std::stod(row_of(result("frames.csv"), frame)["sigma_rotation"]);
+    const double sigma = std::stod(row_of(result("frames.csv"), frame)["sigma_rotation_rad"]);
     EXPECT_NEAR(std::sqrt(covariance.bottomRightCorner<3, 3>().trace()), sigma, 1e-3 * sigma);
   }
 }
@@ -215,6 +215,23 @@ TEST_F(Run, FramesBeforeTheFirstPoseRepeatIt) {
   ASSERT_EQ(rows.size(), 16U);
   EXPECT_EQ(rows[0].world_from_camera.translation, rows[2].world_from_camera.translation);
   EXPECT_NE(rows[2].world_from_camera.translation, rows[3].world_from_camera.translation);
+}
+
+TEST_F(Run, EveryColumnIsDocumented) {
+  ASSERT_EQ(run({}).exit_code, 0);
+  const std::string page = read_file(SPSLAM_SOURCE "/docs/FORMATS.md");
+  for (const char* file : {"frames.csv", "covariance.csv", "keyframes.csv", "mapping.csv", "loops.csv"}) {
+    const std::size_t section = page.find(std::string("### `") + file);
+    ASSERT_NE(section, std::string::npos) << file;
+    const std::string table = page.substr(section, page.find("\n#", section + 1) - section);
+    std::istringstream head(result(file).substr(0, result(file).find('\n')));
+    for (std::string column; std::getline(head, column, ',');)
+      EXPECT_THAT(table, HasSubstr("`" + column + "`")) << file;
+  }
+  for (const char* file : {"metrics.json", "timing.json"}) {
+    const nlohmann::json json = nlohmann::json::parse(result(file));
+    for (const auto& [key, value] : json.items()) EXPECT_THAT(page, HasSubstr("`" + key + "`")) << file;
+  }
 }
 
 struct BadRun {

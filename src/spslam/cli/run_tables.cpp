@@ -114,7 +114,7 @@ const char* state_name(TrackStatus status) {
 std::string frames_csv(const RunRecord& record) {
   std::string text =
       "frame,timestamp,state,reason,near,far,followed,with_disparity,on_trial,moving,inliers,entropy,"
-      "far_weight,keyframe,keyframe_reason,sigma_translation,sigma_rotation,decode_ms";
+      "far_weight,keyframe,keyframe_reason,sigma_translation_m,sigma_rotation_rad,decode_ms";
   for (const Stage& stage : kStages) text += fmt::format(",{}_ms", stage.name);
   text += "\n";
   for (const FrameRecord& frame : record.frames) text += frame_line(frame);
@@ -176,7 +176,8 @@ std::string mapping_csv(const RunRecord& record) {
 
 std::string loops_csv(const RunRecord& record) {
   std::string text =
-      "keyframe,older,score,stage,verification,matches,consensus,inliers,translation_sigma,rotation_sigma,"
+      "keyframe,older,score,stage,verification,matches,consensus,inliers,translation_sigma_m,rotation_sigma_"
+      "deg,"
       "scale,"
       "gap,turn_gap,way,closed,timestamp,older_timestamp,x,y,z\n";
   for (const LoopAttempt& attempt : record.loops)
