@@ -119,10 +119,15 @@ TEST_F(Run, AMapIsReplacedOnlyIfThatIsSaid) {
   EXPECT_EQ(run({"--save-map", out("other") + "/a.map"}).exit_code, 1) << "that folder is not made";
 }
 
-TEST_F(Run, AMapMayLieInTheFolderOfTheResults) {
-  const ProcessResult done = run({"--save-map", out() + "/a.map", "--samples", "0"});
-  EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(result("a.map"), testing::StartsWith("SPSLMAP"));
+TEST_F(Run, AMapMayLieInAFolderThatTheRunMakes) {
+  for (const char* map : {"new/out/a.map", "new/b.map"}) {
+    std::filesystem::remove_all(scratch.path("new"));
+    const ProcessResult done =
+        run_spslam({"run", scene(), "--output", scratch.path("new/out"), "--sequential", "--samples", "0",
+                    "--save-map", scratch.path(map)});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_THAT(read_file(scratch.path(map)), testing::StartsWith("SPSLMAP"));
+  }
 }
 
 }  // namespace

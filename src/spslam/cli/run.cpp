@@ -38,9 +38,7 @@ SlamOptions options_of(const RunArguments& arguments) {
   if (arguments.localize) options.localization.enabled = true;
   if (arguments.ahead && options.threads == Threads::kSequential)
     throw OptionError(
-        "--ahead: with threads=sequential tracking cannot run ahead of its map; give --set threads=parallel, "
-        "or "
-        "leave --ahead out");
+        "--ahead: with threads=sequential tracking cannot run ahead of its map; leave one of them out");
   return options;
 }
 

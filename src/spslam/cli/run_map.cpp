@@ -20,14 +20,23 @@ Map known_map(const RunArguments& arguments, const StereoRig& rig) {
   return std::move(saved.map);
 }
 
+namespace {
+
+// The folder of the results, and those above it, are made and tried by the run itself.
+bool is_made_by_the_run(const fs::path& map, const fs::path& output) {
+  if (!map.has_filename()) return false;
+  fs::path folder = fs::absolute(output / "").lexically_normal().parent_path();
+  while (folder != map.parent_path() && folder.has_relative_path()) folder = folder.parent_path();
+  return folder == map.parent_path();
+}
+
+}  // namespace
+
 void check_map_target(const RunArguments& arguments) {
   if (arguments.save_map.empty()) return;
   const fs::path map = fs::absolute(arguments.save_map).lexically_normal();
   std::error_code ignored;
-  // The folder of the results is made, and tried, by the run itself.
-  const fs::path results = fs::absolute(fs::path(arguments.output) / "").lexically_normal();
-  if (!fs::exists(results, ignored) && map.has_filename() && map.parent_path() == results.parent_path())
-    return;
+  if (!fs::exists(map.parent_path(), ignored) && is_made_by_the_run(map, arguments.output)) return;
   try {
     check_file_writable(map);
   } catch (const OutputError& error) {

@@ -74,10 +74,11 @@ std::vector<std::string> provenance(const RunArguments& arguments, const SlamOpt
   say("data set", full_path(arguments.dataset));
   const std::vector<OptionText> reading = list_options(arguments.reading),
                                 plain = list_options(DatasetOptions{});
-  for (std::size_t i = 0; i < reading.size(); ++i)
-    if (reading[i].value != plain[i].value)
-      say(reading[i].key,
-          reading[i].key == "calibration" ? full_path(reading[i].value) : shell_word(reading[i].value));
+  for (std::size_t i = 0; i < reading.size(); ++i) {
+    const auto& [key, value, unit, meaning] = reading[i];
+    const bool is_path = key == "calibration" || key == "truth";
+    if (value != plain[i].value) say(key, is_path ? full_path(value) : shell_word(value));
+  }
   const bool to_the_last = arguments.end == std::numeric_limits<int>::max();
   say("frames", fmt::format("--start {}, {}", arguments.start,
                             to_the_last ? "to the last" : fmt::format("--end {}", arguments.end)));

@@ -26,6 +26,7 @@ void watch_for_interruption() {
   struct sigaction present = {};
   sigaction(SIGHUP, nullptr, &present);
   if (present.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 int interruption() {
