@@ -60,7 +60,8 @@ run_scene() {  # SCENE
     }
     for preset in "${presets[@]}"; do
       run=$output/$scene.$seed.$preset
-      "$program" run "$data" --preset "$preset" --sequential --quiet --output "$run" --overwrite ${changes[@]+"${changes[@]/#/--set=}"}
+      "$program" run "$data" --preset "$preset" --sequential --quiet --output "$run" --overwrite ${changes[@]+"${changes[@]/#/--set=}"} ||
+        [ -f "$run/frames.csv" ] # no frame tracked is a result too
       echo "$scene $seed $preset $(errors "$run") $(tracked "$run")" >>"$output/ablation.tsv"
     done
     [ "$rendered" = 0 ] || [ "${KEEP:-0}" = 1 ] || rm -r "$data"

@@ -58,12 +58,13 @@ for scene in "${scenes[@]}"; do
 done
 echo '| scene | map: ATE RMSE m | in the map: frames within 0.3 m, % | RMSE m | max m | map laid on the world: frames within 0.3 m, % | RMSE m | nothing aligned: frames within 0.3 m, % | RMSE m | frames placed in the wrong map |'
 echo '|---|---|---|---|---|---|---|---|---|---|'
+# A run that is placed nowhere fails, and is a result here.
 for i in "${!scenes[@]}"; do
   data=$output/${scenes[i]} wrong=$output/${scenes[(i + 1) % ${#scenes[@]}]}
-  "$program" run "$data.other" --sequential --quiet --samples 0 ${changes[@]+"${changes[@]}"} --output "$data.found" --overwrite --load-map "$data.map" --localize
+  "$program" run "$data.other" --sequential --quiet --samples 0 ${changes[@]+"${changes[@]}"} --output "$data.found" --overwrite --load-map "$data.map" --localize || [ -f "$data.found/frames.csv" ]
   placed=-
   if [ "$data" != "$wrong" ]; then
-    "$program" run "$data.other" --sequential --quiet --samples 0 ${changes[@]+"${changes[@]}"} --output "$data.lost" --overwrite --load-map "$wrong.map" --localize
+    "$program" run "$data.other" --sequential --quiet --samples 0 ${changes[@]+"${changes[@]}"} --output "$data.lost" --overwrite --load-map "$wrong.map" --localize || [ -f "$data.lost/frames.csv" ]
     placed=$(awk '!/^#/ { ++count } END { print count + 0 }' "$data.lost/trajectory_tum.txt")
   fi
   by_map=(--map-estimate "$data.run/trajectory_tum.txt" --map-truth "$data/poses.txt")

@@ -54,6 +54,16 @@ TEST_F(AtomicFile, WritesAndReplaces) {
   EXPECT_EQ(entries(), 1u);
 }
 
+TEST_F(AtomicFile, CanBeTriedBefore) {
+  write(folder_ / "a", "one");
+  check_file_writable(folder_ / "a");
+  check_file_writable(folder_ / "new");
+  EXPECT_EQ(entries(), 1u);
+  for (const fs::path& bad : {folder_, folder_ / "none" / "a", fs::path("/dev/full"), folder_ / "a" / "b"})
+    EXPECT_THROW(check_file_writable(bad), OutputError) << bad;
+  EXPECT_EQ(read(folder_ / "a"), "one");
+}
+
 TEST_F(AtomicFile, KeepsPermissionsAndFollowsLinks) {
   write(folder_ / "a", "one");
   fs::permissions(folder_ / "a", fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);

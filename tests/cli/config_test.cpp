@@ -60,6 +60,8 @@ TEST_P(WrongConfig, IsExplained) {
   const TemporaryFolder folder;
   folder.write("key.yaml", "tracker:\n  window_frame: 3\n");
   folder.write("list.yaml", "tracker:\n  window_frames: [3, 4]\n");
+  folder.write("twice.yaml", "tracker:\n  window_frames: 3\ntracker.window_frames: 4\n");
+  folder.write("line_twice.yaml", "threads: parallel\nthreads: sequential\n");
   folder.write("broken.yaml", "tracker: {window_frames\n");
   std::vector<std::string> arguments = {"config"};
   for (const std::string& word : GetParam().arguments)
@@ -79,6 +81,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"UnknownKeyInAFile", {"--config", "key.yaml"}, {"key.yaml", "tracker.window_frames"}},
         BadConfig{
             "ListInAFile", {"--config", "list.yaml"}, {"list.yaml", "tracker.window_frames", "single value"}},
+        BadConfig{
+            "GivenTwice", {"--config", "twice.yaml"}, {"twice.yaml", "tracker.window_frames", "given twice"}},
+        BadConfig{
+            "LineTwice", {"--config", "line_twice.yaml"}, {"line_twice.yaml", "threads", "given twice"}},
         BadConfig{"NotYaml", {"--config", "broken.yaml"}, {"broken.yaml", "not valid YAML"}},
         BadConfig{"MissingFile", {"--config", "none.yaml"}, {"none.yaml", "cannot be read"}},
         BadConfig{"OutOfRange", {"--set", "tracker.state.coast_time=-1"}, {"tracker.state.coast_time", "-1"}},

@@ -151,6 +151,22 @@ TEST(Evaluate, KittiTimesAreLentToTheOther) {
   EXPECT_NEAR(json["rpe_m_per_s"]["rmse"].get<double>(), 0.1, 1e-4);
 }
 
+// Of a part of the sequence; the truth's times come by --times, as in the KITTI benchmark's folders.
+TEST(Evaluate, TimesBesideAFileAreItsOwn) {
+  const TemporaryFolder files;
+  std::string times, own;
+  for (int i = 0; i < 200; ++i) times += std::to_string(0.1 * i) + "\n";
+  for (int i = 50; i < 150; ++i) own += std::to_string(0.1 * i) + "\n";
+  files.write("run/trajectory_kitti_times.txt", own);
+  const ProcessResult result = run_spslam(
+      {"evaluate", files.write("run/trajectory_kitti.txt", kitti_line(100, 0.1)),
+       files.write("poses.txt", kitti_line(200, 0.1)), "--times", files.write("t.txt", times), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["associated_poses"], 100);
+  EXPECT_EQ(json["associated_by"], "time");
+}
+
 TEST(Evaluate, PlanarTakesRtkGroundTruth) {
   const TemporaryFolder files;
   std::string gps;  // t, east, north, 7 more, heading: the half circle of tum() starting northwards
@@ -167,6 +183,17 @@ TEST(Evaluate, PlanarTakesRtkGroundTruth) {
   EXPECT_EQ(json["associated_poses"], 101);
   EXPECT_LT(json["ate_m"]["rmse"].get<double>(), 0.01);
   EXPECT_LT(json["rpe_deg_per_s"]["rmse"].get<double>(), 0.1);
+}
+
+TEST(Evaluate, WarnsOfATruthOfAnotherSequence) {
+  const TemporaryFolder files;
+  const std::string estimate = files.write("e.txt", tum(1)), truth = files.write("t.txt", tum(5.9));
+  EXPECT_THAT(run_spslam({"evaluate", estimate, truth}).out,
+              HasSubstr("WARNING: the estimate would have to be 5.9"));
+  const ProcessResult json = run_spslam({"evaluate", estimate, truth, "--json"});
+  EXPECT_EQ(json.exit_code, 0);
+  EXPECT_THAT(json.err, HasSubstr("warning: the estimate would have to be 5.9"));
+  EXPECT_EQ(nlohmann::json::parse(json.out)["warnings"].size(), 1U);
 }
 
 struct BadInput {

@@ -23,7 +23,8 @@ std::string read_file(const std::string& path);
 // `spslam arguments...` while it runs. wait() must be called once.
 class RunningSpslam {
  public:
-  explicit RunningSpslam(const std::vector<std::string>& arguments);
+  // out: where stdout goes instead of to the result.
+  explicit RunningSpslam(const std::vector<std::string>& arguments, const std::string& out = "");
   RunningSpslam(const RunningSpslam&) = delete;
   RunningSpslam& operator=(const RunningSpslam&) = delete;
   void send(int signal) const;
@@ -35,6 +36,6 @@ class RunningSpslam {
 };
 
 // Runs `spslam arguments...` and waits for its end.
-ProcessResult run_spslam(const std::vector<std::string>& arguments);
+ProcessResult run_spslam(const std::vector<std::string>& arguments, const std::string& out = "");
 
 }  // namespace spslam

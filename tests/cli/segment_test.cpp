@@ -66,6 +66,11 @@ TEST(Segment, NamesTheNearestOption) {
   EXPECT_EQ(
       run_spslam({"segment", image, "--output", folder.path("out"), "--set", "element=disc15"}).exit_code, 0);
   EXPECT_EQ(run_spslam({"segment", image, "--output", folder.path("out"), "--set", "window=0"}).exit_code, 2);
+  EXPECT_EQ(
+      run_spslam({"segment", image, "--output", folder.path("out"), "--set", "tracker.segmentation.window=5"})
+          .exit_code,
+      0)
+      << "as run calls it";
 }
 
 TEST(Segment, SaysIfTheOutputCannotBeWritten) {

@@ -49,6 +49,12 @@ INSTANTIATE_TEST_SUITE_P(
                   {"evaluate", "a", "b", "--algin=se3"},
                   {"unknown option '--algin'", "'--align'"}},
         UsageCase{"OptionBeforeArguments", {"evaluate", "--jsno"}, {"'--json'"}},
+        UsageCase{
+            "OtherWord", {"run", "a", "-o", "b", "--frames", "5"}, {"'--frames'", "did you mean '--end'?"}},
+        UsageCase{"LogLevel", {"run", "a", "-o", "b", "--log-level", "loud"}, {"--log-level", "debug"}},
+        UsageCase{"NotAboveZero",
+                  {"export-map", "a", "-o", "b.ply", "--max-uncertainty", "0"},
+                  {"--max-uncertainty: '0' is not a number above 0. See"}},
         UsageCase{"MissingArgument", {"evaluate", "a"}, {"GROUNDTRUTH is required"}},
         UsageCase{"OneArgumentTooMany", {"evaluate", "a", "b", "c"}, {"unexpected argument 'c'"}},
         UsageCase{"UnknownName", {"evaluate", "a", "b", "--align", "se4"}, {"'se4'", "none, se3, sim3"}},
@@ -69,6 +75,24 @@ TEST(Usage, HelpAndVersionGoToStdout) {
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.out, AllOf(HasSubstr("--align"), HasSubstr("GROUNDTRUTH")));
   EXPECT_EQ(help.err, "");
+}
+
+TEST(Usage, LogLevelBeforeTheSubcommandAndBehindIt) {
+  const std::string nowhere = "/no/such/folder";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--log-level", "debug", "run", nowhere, "-o", "out"},
+        {"run", nowhere, "-o", "out", "--log-level", "debug"},
+        {"vocabulary", "info", nowhere, "--log-level=debug"}})
+    EXPECT_THAT(run_spslam(arguments).err, HasSubstr(nowhere)) << "the command line is right";
+}
+
+TEST(Usage, OutputThatDoesNotArriveIsAFailure) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"config", "--print"}, {"run", "--help"}, {"--version"}}) {
+    const ProcessResult full = run_spslam(arguments, "/dev/full");
+    EXPECT_EQ(full.exit_code, 1) << arguments[0];
+    EXPECT_THAT(full.err, HasSubstr("stdout"));
+  }
 }
 
 TEST(Usage, LocalizingNeedsAMapAndMakesNone) {

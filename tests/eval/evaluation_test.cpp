@@ -71,6 +71,50 @@ TEST(Evaluation, TooFewPosesSayWhy) {
               HasSubstr("only 2 poses"));
 }
 
+TEST(Evaluation, ATruthOfAnotherSequenceIsWarnedOf) {
+  const Trajectory truth = figure_of_eight(400);
+  EXPECT_THAT(evaluate(transformed(truth, some_motion(), 1 / 1.9), truth, {}).warnings, testing::IsEmpty());
+  const Evaluation small = evaluate(transformed(truth, some_motion(), 1 / 5.9), truth, {});
+  EXPECT_THAT(small.warnings, testing::ElementsAre(HasSubstr("5.9 times")));
+  EXPECT_THAT(brief_report(small), HasSubstr("WARNING: the estimate"));
+  EXPECT_THAT(json_report(small), HasSubstr("5.9 times"));
+  Trajectory later = truth;
+  for (StampedPose& pose : later) pose.timestamp += 30;
+  EXPECT_THAT(evaluate(later, truth, {}).warnings, testing::Contains(HasSubstr("only 100 of 400")));
+  // A part of the sequence, and a truth that is slower than the camera or begins later, are as they should
+  // be.
+  const Trajectory part(truth.begin() + 100, truth.begin() + 200);
+  EXPECT_THAT(evaluate(part, truth, {}).warnings, testing::IsEmpty());
+  EXPECT_THAT(evaluate(truth, part, {}).warnings, testing::IsEmpty());
+  Trajectory slow;
+  for (std::size_t i = 0; i < truth.size(); i += 5) slow.push_back(truth[i]);
+  EXPECT_THAT(evaluate(truth, slow, {}).warnings, testing::IsEmpty());
+}
+
+TEST(Evaluation, StandingStillHasNoScaleToWarnOf) {
+  Trajectory truth = straight_line(50), estimate = truth;
+  Random random(3);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      truth[i].world_from_camera.translation[k] = 1e-3 * random.normal();
+      estimate[i].world_from_camera.translation[k] = 1e-2 * random.normal();
+    }
+  EXPECT_THAT(evaluate(estimate, truth, {}).warnings, testing::IsEmpty());
+}
+
+TEST(Evaluation, JsonIsReadAgain) {
+  const Trajectory truth = figure_of_eight(2000), estimate = transformed(truth, some_motion(), 0.3);
+  Evaluation e = evaluate(estimate, truth, {});
+  ASSERT_GT(e.kitti.count, 0u);
+  const Evaluation again = parse_json_report(json_report(e), "metrics.json");
+  e.kitti.lengths.clear();
+  e.truth_from_estimate = {};
+  EXPECT_EQ(json_report(again), json_report(e));
+  for (const char* text : {"", "{}", "[1, 2]", "{\"align\": \"se4\"}"})
+    EXPECT_THAT(message_of<InputError>([&] { parse_json_report(text, "metrics.json"); }),
+                HasSubstr("metrics.json"));
+}
+
 TEST(Evaluation, ByIndexHasNoErrorPerSecond) {
   EvaluationOptions options;
   options.association.by_index = true;

@@ -93,6 +93,19 @@ TEST(SvgChart, ALongSeriesKeepsItsExtremes) {
   EXPECT_THAT(svg, HasSubstr(" 35.2")) << "the peak, 5 % below the top of the plot";
 }
 
+TEST(SvgChart, ALongSeriesKeepsItsBreaks) {
+  Chart chart;
+  ChartSeries series{"long", "estimate", {}};
+  for (int i = 0; i < 50000; ++i) {
+    const bool missing = i == 12345 || i == 40000;
+    series.points.emplace_back(i, missing ? std::numeric_limits<double>::quiet_NaN() : 1.0 * (i % 7));
+  }
+  chart.series.push_back(series);
+  const std::string svg = svg_chart(chart);
+  const std::string path = svg.substr(svg.find("class=\"line estimate\" d=\""));
+  EXPECT_EQ(count_of(path.substr(0, path.find("/>")), "M"), 3u);
+}
+
 ReportInput full_input() {
   ReportInput input;
   const Trajectory truth = testing_eval::figure_of_eight(300);
@@ -131,6 +144,41 @@ TEST(HtmlReport, LeavesOutWhatIsNotThere) {
   EXPECT_THAT(html, AllOf(HasSubstr("1.9 m"), Not(HasSubstr("Errors")), Not(HasSubstr("Time a frame"))));
   EXPECT_EQ(count_of(html, "<svg"), 1u);
   EXPECT_TRUE(is_balanced(html));
+}
+
+TEST(HtmlReport, CountsStatesAndMarksWhatWasNotMeasured) {
+  ReportInput input = full_input();
+  const std::string html = html_report(input);
+  EXPECT_THAT(html, AllOf(HasSubstr("277 of 300"), HasSubstr("frames tracked (20 lost, 3 initializing)"),
+                          HasSubstr("not measured: coasting or lost"), HasSubstr("class=\"line guessed\"")));
+  EXPECT_THAT(html, AllOf(HasSubstr("x, m<"), HasSubstr("z, m<"))) << "seen along y";
+  for (ReportFrame& frame : input.frames) frame.state = "tracking";
+  EXPECT_THAT(html_report(input), Not(HasSubstr("line guessed")));
+}
+
+TEST(HtmlReport, BreaksTheWayWherePosesAreMissing) {
+  const auto parts = [](const ReportInput& input) {
+    const std::string html = html_report(input);
+    const std::string path = html.substr(html.find("class=\"line estimate\" d=\""));
+    return count_of(path.substr(0, path.find("/>")), "M");
+  };
+  ReportInput input;
+  input.estimate = testing_eval::figure_of_eight(100);
+  EXPECT_EQ(parts(input), 1u);
+  input.estimate.erase(input.estimate.begin() + 20, input.estimate.begin() + 22);
+  EXPECT_EQ(parts(input), 1u) << "two frames left out";
+  input.estimate.erase(input.estimate.begin() + 50, input.estimate.begin() + 70);
+  EXPECT_EQ(parts(input), 2u);
+}
+
+TEST(HtmlReport, ErrorsWithoutPosesAreATable) {
+  ReportInput input = full_input();
+  input.evaluation = parse_json_report(json_report(*input.evaluation), "metrics.json");
+  const std::string html = html_report(input);
+  EXPECT_THAT(html,
+              AllOf(HasSubstr("ATE RMSE"), HasSubstr("ATE [m]"), HasSubstr("300 of 300 poses associated"),
+                    Not(HasSubstr("Position error over time")), Not(HasSubstr("ground truth"))));
+  EXPECT_EQ(count_of(html, "<svg"), 2u);
 }
 
 TEST(HtmlReport, IsTheSameEveryTime) {

@@ -82,10 +82,30 @@ TEST_F(RunFolderOnDisk, ReadsWhatIsThere) {
   EXPECT_EQ(report.images[1].png, "B");
 }
 
-TEST_F(RunFolderOnDisk, NeedsATrajectory) {
+TEST_F(RunFolderOnDisk, NeedsATrajectoryOrFrames) {
   write("config.yaml", "preset: paper\n");
   EXPECT_THAT(message_of<InputError>([&] { read_run_folder(folder_); }), HasSubstr("trajectory_tum.txt"));
   EXPECT_THAT(message_of<InputError>([&] { read_run_folder(folder_ / "none"); }), HasSubstr("not a folder"));
+}
+
+TEST_F(RunFolderOnDisk, WhatIsMissingOrCutOffIsLeftOutAndNamed) {
+  const Trajectory truth = testing_eval::straight_line(5);
+  write("trajectory_tum.txt", format_tum(truth));
+  write("frames.csv", "timestamp,state,near,far\n0,tracking,5,6\n0.1,trac");
+  write("metrics.json", json_report(evaluate(truth, truth, {})).substr(0, 200));
+  const ReportInput report = read_run_folder(folder_);
+  EXPECT_EQ(report.estimate.size(), 5u);
+  EXPECT_TRUE(report.frames.empty());
+  EXPECT_FALSE(report.evaluation);
+  EXPECT_THAT(report.notes,
+              testing::ElementsAre(HasSubstr("frames.csv:3"), HasSubstr("timing.json is not there"),
+                                   HasSubstr("metrics.json")));
+  EXPECT_THAT(html_report(report), HasSubstr("timing.json is not there"));
+  write("metrics.json", json_report(evaluate(truth, truth, {})));
+  EXPECT_TRUE(read_run_folder(folder_).evaluation);
+  write("trajectory_tum.txt", "0.1 0 0");
+  write("frames.csv", "timestamp,state,near,far\n0,tracking,5,6\n");
+  EXPECT_EQ(read_run_folder(folder_).frames.size(), 1u);
 }
 
 }  // namespace

@@ -83,9 +83,8 @@ void flush_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-}  // namespace
-
-void write_file_atomically(const fs::path& path, std::span<const std::byte> content) {
+// The file itself, where the path is a link to it.
+fs::path target_of(const fs::path& path) {
   std::error_code error;
   fs::path target = path;
   if (fs::is_symlink(path, error)) {
@@ -95,6 +94,17 @@ void write_file_atomically(const fs::path& path, std::span<const std::byte> cont
   if (fs::is_directory(target, error)) fail(path, EISDIR);
   if (fs::exists(target, error) && !fs::is_regular_file(target, error))
     throw OutputError(path.string() + " is a device or a pipe; give the path of a file");
+  return target;
+}
+
+}  // namespace
+
+void check_file_writable(const fs::path& path) {
+  const TemporaryFile removed_at_once(target_of(path));
+}
+
+void write_file_atomically(const fs::path& path, std::span<const std::byte> content) {
+  const fs::path target = target_of(path);
   TemporaryFile file(target);
   int reason = file.write(content);
   if (reason == 0) reason = file.set_permissions(permissions_of(target));

@@ -48,4 +48,15 @@ CLI::Validator enum_names() {
       "");
 }
 
+// For ->check(): CLI11's own message prints the largest double with all of its 309 digits.
+inline CLI::Validator above_zero() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value > 0) return "";
+        return "'" + text + "' is not a number above 0";
+      },
+      "");
+}
+
 }  // namespace spslam

@@ -60,9 +60,13 @@ int evaluate_files(const EvaluateArguments& arguments) {
   options.association.by_index = pair.by_index;
   Evaluation evaluation = evaluate(pair.estimate, pair.truth, options);
   for (const std::string& note : map.notes) evaluation.notes.push_back("the map: " + note);
+  for (const std::string& warning : map.warnings) evaluation.warnings.push_back("the map: " + warning);
   const std::string text =
       arguments.json ? json_report(evaluation) : brief_report(evaluation, {.kitti_lengths = arguments.kitti});
   std::fputs(text.c_str(), stdout);
+  if (arguments.json)  // which is read by programs
+    for (const std::string& warning : evaluation.warnings)
+      std::fprintf(stderr, "spslam: warning: %s\n", warning.c_str());
   return 0;
 }
 
@@ -77,8 +81,9 @@ void add_file_options(CLI::App& command, TrajectoryPairFiles& files) {
       ->transform(enum_names<TrajectoryFormat>())
       ->type_name("FORMAT");
   command
-      .add_option("--times", files.times,
-                  "Times of the rows of a KITTI file, one a line (default: times.txt beside it)")
+      .add_option(
+          "--times", files.times,
+          "Times of the rows of a KITTI file, one a line (default: NAME_times.txt or times.txt beside it)")
       ->type_name("FILE");
 }
 

@@ -57,12 +57,12 @@ void add_export_map(CLI::App& app, Command& chosen) {
   command
       ->add_option("--max-uncertainty", arguments->cloud.max_uncertainty,
                    "Leave out landmarks whose distance is less certain, as a share of it")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command
       ->add_option("--min-observers", arguments->cloud.min_observers,
                    "Leave out landmarks that fewer keyframes saw")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   command->callback([arguments, &chosen] { chosen = [arguments] { return export_map(*arguments); }; });
 }

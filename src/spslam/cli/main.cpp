@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <iostream>
 
 #include "spslam/base/error.h"
 #include "spslam/cli/commands.h"
@@ -45,21 +46,36 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_vocabulary(app, chosen);
 }
 
+// Before a subcommand and behind it, wherever one looks for it.
+void add_log_level(CLI::App& app, std::string& level) {
+  app.add_option("--log-level", level, "What is logged to the terminal (stderr)")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
+      ->capture_default_str();
+  for (CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
+    add_log_level(*subcommand, level);
+}
+
+// What was printed has arrived, unless the disk that it went to is full.
+int checked_output(int exit_code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return exit_code;
+  const int failed = fail("what was to be printed could not be written to stdout; check where it goes", 1);
+  return exit_code == 0 ? failed : exit_code;
+}
+
 int run(int argc, char** argv) {
   keep_freed_memory();
   CLI::App app("SP-SLAM: stereo visual SLAM for boats close to the shore", "spslam");
   app.set_version_flag("--version", "spslam " SPSLAM_VERSION);
   app.set_help_all_flag("--help-all", "Print the help of every subcommand too");
   std::string level = "warning";
-  app.add_option("--log-level", level, "What is logged to the terminal (stderr)")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
-      ->capture_default_str();
   Command chosen;
   add_commands(app, chosen);
+  add_log_level(app, level);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
+    return checked_output(app.exit(help_or_version));
   } catch (const CLI::ParseError& error) {
     return fail(usage_message(app, error).c_str(), kUsageError);
   }
@@ -68,7 +84,7 @@ int run(int argc, char** argv) {
     return kUsageError;
   }
   configure_logging(level);
-  return chosen();
+  return checked_output(chosen());
 }
 
 }  // namespace

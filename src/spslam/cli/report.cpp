@@ -15,7 +15,7 @@ namespace {
 struct ReportArguments {
   std::filesystem::path folder;
   std::filesystem::path output;  // empty: report.html in the folder
-  std::filesystem::path truth;   // empty: no errors in the report
+  std::filesystem::path truth;   // empty: the errors that the run computed
   TrajectoryFormat truth_format = TrajectoryFormat::kAuto;
   std::string title;
   EvaluationOptions options;
@@ -23,6 +23,7 @@ struct ReportArguments {
 
 int write_report(const ReportArguments& arguments) {
   ReportInput report = read_run_folder(arguments.folder);
+  for (const std::string& note : report.notes) std::fprintf(stderr, "spslam: %s\n", note.c_str());
   if (!arguments.title.empty()) report.title = arguments.title;
   if (!arguments.truth.empty()) {
     TrajectoryPairFiles files;
@@ -45,7 +46,10 @@ void add_report(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("report", "Make one HTML page of a run's result folder");
   const auto arguments = std::make_shared<ReportArguments>();
   command->add_option("RUN_DIR", arguments->folder, "Output folder of `spslam run`")->required();
-  command->add_option("--truth", arguments->truth, "True trajectory, for errors")->type_name("FILE");
+  command
+      ->add_option("--truth", arguments->truth,
+                   "True trajectory, for errors over time; without it those that the run computed")
+      ->type_name("FILE");
   command
       ->add_option("--format-truth", arguments->truth_format,
                    "Its format: auto, tum, kitti, euroc or usvinland")

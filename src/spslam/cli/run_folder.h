@@ -22,7 +22,7 @@ class ResultFolder {
  public:
   // Makes the folder and starts its log.txt, to which the process's logger writes as long as this lives.
   // With overwrite the results of an earlier run are removed first, other files stay. Throws OutputError if
-  // the folder is not empty (unless overwrite), is a file, or cannot be written to.
+  // the folder has anything else in it, or results (unless overwrite), is a file, or cannot be written to.
   ResultFolder(std::filesystem::path folder, bool overwrite);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;

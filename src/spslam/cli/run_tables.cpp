@@ -24,10 +24,6 @@ constexpr Stage kStages[] = {{"front_end", &StageTimes::front_end}, {"follow", &
                              {"motion", &StageTimes::motion},       {"window", &StageTimes::window},
                              {"keyframe", &StageTimes::keyframe},   {"total", &StageTimes::total}};
 
-const char* state_name(TrackStatus status) {
-  return option_names(status)[static_cast<std::size_t>(status)];
-}
-
 // In quotes if it must be; on one line.
 std::string csv_text(std::string text) {
   for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
@@ -58,8 +54,9 @@ std::string frame_line(const FrameRecord& frame) {
   add(csv_number(r.far_weight, 4));
   add(r.keyframe_id.valid() ? "1" : "0");
   add(r.keyframe_id.valid() ? csv_text(r.keyframe.reason()) : "");
-  add(csv_small(std::sqrt(r.covariance.topLeftCorner<3, 3>().trace())));
-  add(csv_small(std::sqrt(r.covariance.bottomRightCorner<3, 3>().trace())));
+  const bool has_pose = r.status != TrackStatus::kInitializing;
+  add(has_pose ? csv_small(std::sqrt(r.covariance.topLeftCorner<3, 3>().trace())) : "");
+  add(has_pose ? csv_small(std::sqrt(r.covariance.bottomRightCorner<3, 3>().trace())) : "");
   add(csv_number(1e3 * frame.decode_seconds, 3));
   for (const Stage& stage : kStages) add(csv_number(1e3 * r.seconds.*stage.seconds, 3));
   return line + "\n";
@@ -110,29 +107,56 @@ double cpu_seconds() {
 
 }  // namespace
 
+const char* state_name(TrackStatus status) {
+  return option_names(status)[static_cast<std::size_t>(status)];
+}
+
 std::string frames_csv(const RunRecord& record) {
   std::string text =
       "frame,timestamp,state,reason,near,far,followed,with_disparity,on_trial,moving,inliers,entropy,"
-      "far_weight,keyframe,keyframe_reason,sigma_translation,sigma_rotation,decode_ms";
+      "far_weight,keyframe,keyframe_reason,sigma_translation_m,sigma_rotation_rad,decode_ms";
   for (const Stage& stage : kStages) text += fmt::format(",{}_ms", stage.name);
   text += "\n";
   for (const FrameRecord& frame : record.frames) text += frame_line(frame);
   return text;
 }
 
+std::string covariance_csv(const RunRecord& record) {
+  constexpr const char* kAxes[] = {"tx", "ty", "tz", "rx", "ry", "rz"};
+  std::string text = "frame,timestamp";
+  for (int i = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) text += fmt::format(",{}_{}", kAxes[i], kAxes[j]);
+  text += "\n";
+  for (const FrameRecord& frame : record.frames) {
+    const TrackResult& r = frame.result;
+    text += fmt::format("{},{:.9f}", frame.index, r.timestamp);
+    for (int i = 0; i < 6; ++i)
+      for (int j = i; j < 6; ++j) {
+        text += ",";
+        if (r.status != TrackStatus::kInitializing) text += scientific_text(r.covariance(i, j), 9);
+      }
+    text += "\n";
+  }
+  return text;
+}
+
 std::string keyframes_csv(const RunRecord& record) {
   std::string text = "keyframe,frame,timestamp,tx,ty,tz,qx,qy,qz,qw,sightings,reason\n";
   for (const KeyframeInfo& keyframe : record.keyframes) {
-    const FrameRecord* frame = find_frame(record, keyframe.frame);
+    // A loaded keyframe's frame is one of the run that made it; the numbers begin anew with each run.
+    const bool loaded = record.loaded.contains(keyframe.id);
+    const FrameRecord* frame = loaded ? nullptr : find_frame(record, keyframe.frame);
     const Eigen::Vector3d& t = keyframe.world_from_camera.translation;
     const Eigen::Quaterniond q(keyframe.world_from_camera.rotation);
     const double sign = q.w() < 0 ? -1 : 1;
-    text += fmt::format("{},{},{:.9f}", keyframe.id.value, frame ? frame->index : keyframe.frame.value,
+    text += fmt::format("{},{},{:.9f}", keyframe.id.value, frame ? std::to_string(frame->index) : "",
                         keyframe.timestamp);
     for (const double value : {t.x(), t.y(), t.z(), sign * q.x(), sign * q.y(), sign * q.z(), sign * q.w()})
       text += fmt::format(",{:.9e}", value);
     text += fmt::format(",{},{}\n", keyframe.sightings,
-                        frame ? csv_text(frame->result.keyframe.reason()) : std::string());
+                        frame    ? csv_text(frame->result.keyframe.reason())
+                        : loaded ? "loaded"
+                                 : "");
   }
   return text;
 }
@@ -152,7 +176,8 @@ std::string mapping_csv(const RunRecord& record) {
 
 std::string loops_csv(const RunRecord& record) {
   std::string text =
-      "keyframe,older,score,stage,verification,matches,consensus,inliers,translation_sigma,rotation_sigma,"
+      "keyframe,older,score,stage,verification,matches,consensus,inliers,translation_sigma_m,rotation_sigma_"
+      "deg,"
       "scale,"
       "gap,turn_gap,way,closed,timestamp,older_timestamp,x,y,z\n";
   for (const LoopAttempt& attempt : record.loops)
@@ -172,10 +197,9 @@ std::string loops_csv(const RunRecord& record) {
   return text;
 }
 
-Trajectory stamped_trajectory(const RunRecord& record) {
+Trajectory stamped_trajectory(const std::vector<TrajectoryPose>& poses) {
   Trajectory trajectory;
-  for (const TrajectoryPose& pose : record.trajectory)
-    trajectory.push_back({pose.timestamp, pose.world_from_camera});
+  for (const TrajectoryPose& pose : poses) trajectory.push_back({pose.timestamp, pose.world_from_camera});
   return trajectory;
 }
 
@@ -188,6 +212,12 @@ Trajectory trajectory_of_every_frame(const RunRecord& record) {
     trajectory.push_back({frame.result.timestamp, pose->world_from_camera});
   }
   return trajectory;
+}
+
+std::string times_text(const Trajectory& rows) {
+  std::string text;
+  for (const StampedPose& row : rows) text += fixed_text(row.timestamp, 9) + "\n";
+  return text;
 }
 
 std::string timing_json(const RunRecord& record, const std::string& dataset) {
@@ -228,17 +258,6 @@ double median_frame_ms(const RunRecord& record) {
   if (seconds.empty()) return 0;
   std::sort(seconds.begin(), seconds.end());
   return 1e3 * quantile(seconds, 0.5);
-}
-
-std::string state_counts(const RunRecord& record) {
-  std::string text;
-  for (const TrackStatus status :
-       {TrackStatus::kTracking, TrackStatus::kCoasting, TrackStatus::kLost, TrackStatus::kInitializing}) {
-    const auto count = std::count_if(record.frames.begin(), record.frames.end(),
-                                     [&](const FrameRecord& f) { return f.result.status == status; });
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, state_name(status));
-  }
-  return text.empty() ? "none" : text;
 }
 
 }  // namespace spslam

@@ -82,7 +82,11 @@ SegmentationOptions segmentation_options(const SegmentArguments& arguments) {
   for (const std::string& setting : arguments.settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) throw OptionError("--set " + setting + ": give it as name=value");
-    set_option(options, setting.substr(0, equals), setting.substr(equals + 1));
+    // As `spslam run` has it, too.
+    constexpr std::string_view kPrefix = "tracker.segmentation.";
+    std::string key = setting.substr(0, equals);
+    if (key.starts_with(kPrefix)) key.erase(0, kPrefix.size());
+    set_option(options, key, setting.substr(equals + 1));
   }
   check_options(options);
   return options;

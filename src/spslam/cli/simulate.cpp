@@ -88,7 +88,7 @@ void add_simulate(CLI::App& app, Command& chosen) {
       ->required();
   command->add_option("--output,-o", arguments->output, "Folder to write the data set to")->type_name("DIR");
   command->add_option("--frames", arguments->frames, "At most so many pairs; the whole way unless given")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--seed", arguments->seed, "Of everything random")->capture_default_str();
   command->add_option("--format", arguments->layout, "Layout: kitti (default), euroc or usvinland")
       ->transform(enum_names<sim::Layout>())

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
+
 #include "spslam/base/options.h"
 #include "spslam/cli/commands.h"
 
@@ -26,8 +28,22 @@ std::vector<std::string> subcommand_names(const CLI::App& app) {
   return names;
 }
 
+// What other programs call it, which no likeness of letters leads to. Only the options of this subcommand
+// count.
+std::string other_word_for(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::pair<const char*, const char*> kMeant[] = {
+      {"--frames", "--end"},        {"--max-frames", "--end"},
+      {"--from", "--start"},        {"--to", "--end"},
+      {"--fps", "--rate"},          {"--force", "--overwrite"},
+      {"--verbose", "--log-level"}, {"--map", "--load-map"}};
+  for (const auto& [other, ours] : kMeant)
+    if (word == other && std::find(known.begin(), known.end(), ours) != known.end()) return ours;
+  return "";
+}
+
 std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
-  const std::string nearest = nearest_name(word, known);
+  const std::string other = other_word_for(word, known);
+  const std::string nearest = other.empty() ? nearest_name(word, known) : other;
   return "unknown " + kind + " '" + word + "'" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
 }
 

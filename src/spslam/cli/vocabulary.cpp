@@ -174,7 +174,7 @@ void add_images(CLI::App& command, ImageArguments& arguments) {
       ->required();
   add_reading_options(command, arguments.reading);
   command.add_option("--every", arguments.every, "Use one frame of so many")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command.add_option("--features", arguments.features, "ORB features of an image")
       ->check(CLI::Range(1, 100000))

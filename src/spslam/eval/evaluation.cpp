@@ -5,6 +5,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
@@ -37,6 +38,31 @@ double scale_ratio_of(std::span<const AssociatedPose> poses, bool planar) {
   return similar.has_scale ? similar.truth_from_estimate.scale : std::numeric_limits<double>::quiet_NaN();
 }
 
+double extent_of(std::span<const AssociatedPose> poses) {
+  Eigen::AlignedBox3d box;
+  for (const AssociatedPose& pose : poses) box.extend(pose.truth.translation);
+  return box.diagonal().norm();
+}
+
+// A truth of another sequence gives figures like any other; but then few poses have a partner in time, or the
+// two ways have nothing in common, the scale neither.
+std::vector<std::string> warnings_of(const Evaluation& e, std::span<const AssociatedPose> poses) {
+  constexpr double kStandingStill = 0.5;  // m, of a truth whose noise has any scale
+  std::vector<std::string> warnings;
+  if (2 * poses.size() < std::min(e.estimate_poses, e.truth_poses))
+    warnings.push_back(fmt::format(
+        "only {} of {} poses have one of the {} poses of the ground truth at their time: are both of "
+        "one sequence and on one clock?",
+        poses.size(), e.estimate_poses, e.truth_poses));
+  const bool other_scale = e.scale_ratio < 0.5 || e.scale_ratio > 2;  // false for NaN
+  if (other_scale && extent_of(poses) > kStandingStill)
+    warnings.push_back(fmt::format(
+        "the estimate would have to be {:.3g} times as large to fit: is this the truth of the same "
+        "sequence, and is the calibration's baseline right?",
+        e.scale_ratio));
+  return warnings;
+}
+
 // The metric knows no alignment, but planar headings can be compared in one world only; a rigid motion
 // changes no figure.
 KittiResult kitti_without_scale(std::span<const AssociatedPose> poses, bool planar) {
@@ -56,6 +82,7 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   result.estimate_poses = estimate.size();
   result.truth_poses = truth.size();
   std::vector<AssociatedPose> poses = associate(estimate, truth, options.association);
+  result.associated_poses = poses.size();
   require_enough(poses.size(), estimate, truth, options.association);
   if (options.planar) {
     poses = planar_poses(poses, options.up_estimate, options.up_truth);
@@ -65,6 +92,7 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   result.truth_length = truth_path_length(poses);
   if (!options.association.by_index) result.duration = poses.back().timestamp - poses.front().timestamp;
   result.scale_ratio = scale_ratio_of(poses, options.planar);
+  result.warnings = warnings_of(result, poses);
 
   const AlignResult aligned = align_positions(poses, options.align, options.planar);
   if (!aligned.degenerate.empty()) result.notes.push_back("degenerate alignment: " + aligned.degenerate);

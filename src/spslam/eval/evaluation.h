@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "spslam/eval/association.h"
@@ -40,6 +41,7 @@ struct Evaluation {
   EvaluationOptions options;
   std::size_t estimate_poses = 0;
   std::size_t truth_poses = 0;
+  std::size_t associated_poses = 0;
   std::vector<AssociatedPose>
       poses;                       // in the world of the truth (planar: its levelled world), scaled if sim3
   double estimate_length = 0;      // m, of the associated poses, before any scaling
@@ -53,6 +55,7 @@ struct Evaluation {
   RpeResult rpe_per_frame;         // between neighbouring associated poses
   KittiResult kitti;               // always without alignment and scale
   std::vector<std::string> notes;  // what a reader of the figures must know, such as a degenerate alignment
+  std::vector<std::string> warnings;  // why they may be figures of nothing: a truth of another sequence
 };
 
 // Throws InputError if fewer than three poses can be associated, OptionError if an option is out of range.
@@ -69,5 +72,8 @@ struct ReportStyle {
 std::string brief_report(const Evaluation& evaluation, const ReportStyle& style = {});
 // One JSON object, indented, with a newline at its end; a figure that does not exist is null.
 std::string json_report(const Evaluation& evaluation);
+// The figures of such an object (metrics.json); there are no poses and no errors of single ones in it. name
+// stands for it in messages. Throws InputError.
+Evaluation parse_json_report(std::string_view text, const std::string& name);
 
 }  // namespace spslam

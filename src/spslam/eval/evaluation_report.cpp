@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "spslam/base/error.h"
+#include "spslam/base/options.h"
 #include "spslam/eval/evaluation.h"
 
 namespace spslam {
@@ -27,7 +29,7 @@ std::string head(const Evaluation& e) {
     how = association.interpolate ? "to the interpolated truth"
                                   : fmt::format("by time within {} s", association.tolerance);
   std::string text = fmt::format("associated   {} of {} poses with {} of the ground truth, {}\n",
-                                 e.poses.size(), e.estimate_poses, e.truth_poses, how);
+                                 e.associated_poses, e.estimate_poses, e.truth_poses, how);
   text += fmt::format("path length  {:.3f} m estimated, {:.3f} m true", e.estimate_length, e.truth_length);
   if (e.duration > 0) text += fmt::format(", in {:.2f} s", e.duration);
   const char* mode = option_names(e.options.align)[static_cast<std::size_t>(e.options.align)];
@@ -73,7 +75,63 @@ Json json_of(const Similarity& s) {
   return {{"scale", s.scale}, {"rotation_row_major", rotation}, {"translation_m", translation}};
 }
 
+// A figure that does not exist is null.
+double figure(const Json& object, const char* name) {
+  return object.contains(name) && object[name].is_number() ? object[name].get<double>() : std::nan("");
+}
+
+std::size_t count_in(const Json& object, const char* name) {
+  return object.at(name).get<std::size_t>();
+}
+
+Statistics statistics_in(const Json& object) {
+  return {count_in(object, "count"), figure(object, "mean"), figure(object, "max"),
+          figure(object, "rmse"),    figure(object, "sd"),   figure(object, "median")};
+}
+
+KittiResult kitti_in(const Json& object) {
+  KittiResult kitti;
+  kitti.count = object.at("count").get<decltype(kitti.count)>();
+  kitti.t_rel = figure(object, "t_rel_percent");
+  kitti.r_rel = figure(object, "r_rel_deg_per_100m");
+  return kitti;
+}
+
+Evaluation evaluation_in(const Json& json) {
+  Evaluation e;
+  e.estimate_poses = count_in(json, "estimate_poses");
+  e.truth_poses = count_in(json, "truth_poses");
+  e.associated_poses = count_in(json, "associated_poses");
+  e.options.association.by_index = json.at("associated_by") == "index";
+  detail::from_text("align", json.at("align").get<std::string>(), e.options.align);
+  e.options.planar = json.at("planar").get<bool>();
+  e.estimate_length = figure(json, "estimate_length_m");
+  e.truth_length = figure(json, "truth_length_m");
+  e.duration = figure(json, "duration_s");
+  e.scale_ratio = figure(json, "scale_ratio");
+  e.ate.position = statistics_in(json.at("ate_m"));
+  e.rpe_per_second.translation = statistics_in(json.at("rpe_m_per_s"));
+  e.rpe_per_second.rotation = statistics_in(json.at("rpe_deg_per_s"));
+  e.rpe_per_frame.translation = statistics_in(json.at("rpe_m_per_frame"));
+  e.rpe_per_frame.rotation = statistics_in(json.at("rpe_deg_per_frame"));
+  e.kitti = kitti_in(json.at("kitti"));
+  for (const Json& note : json.at("notes")) e.notes.push_back(note.get<std::string>());
+  if (json.contains("warnings"))
+    for (const Json& warning : json.at("warnings")) e.warnings.push_back(warning.get<std::string>());
+  return e;
+}
+
 }  // namespace
+
+Evaluation parse_json_report(std::string_view text, const std::string& name) {
+  try {
+    return evaluation_in(Json::parse(text));
+  } catch (const Json::exception& error) {
+    throw InputError(name + ": is no report of errors as spslam writes it (" + error.what() + ")");
+  } catch (const OptionError& error) {
+    throw InputError(name + ": " + error.what());
+  }
+}
 
 std::string brief_report(const Evaluation& e, const ReportStyle& style) {
   std::string text = head(e);
@@ -90,6 +148,7 @@ std::string brief_report(const Evaluation& e, const ReportStyle& style) {
                         100 * e.share_within, e.truth_poses);
   if (style.kitti_lengths || e.kitti.count > 0) text += kitti_text(e.kitti, style.kitti_lengths);
   for (const std::string& note : e.notes) text += "note: " + note + "\n";
+  for (const std::string& warning : e.warnings) text += "WARNING: " + warning + "\n";
   return text;
 }
 
@@ -98,7 +157,7 @@ std::string json_report(const Evaluation& e) {
   const Json json = {
       {"estimate_poses", e.estimate_poses},
       {"truth_poses", e.truth_poses},
-      {"associated_poses", e.poses.size()},
+      {"associated_poses", e.associated_poses},
       {"associated_by", e.options.association.by_index ? "index" : "time"},
       {"align", mode},
       {"planar", e.options.planar},
@@ -115,6 +174,7 @@ std::string json_report(const Evaluation& e) {
       {"rpe_deg_per_frame", json_of(e.rpe_per_frame.rotation)},
       {"kitti", json_of(e.kitti)},
       {"notes", e.notes},
+      {"warnings", e.warnings},
   };
   return json.dump(2) + "\n";
 }

@@ -5,9 +5,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "spslam/eval/html.h"
+#include "spslam/eval/statistics.h"
 #include "spslam/eval/svg_chart.h"
 
 namespace spslam {
@@ -27,13 +30,14 @@ svg{width:100%;height:auto;display:block}
 .grid{stroke:var(--rule);stroke-width:1;fill:none}.tick{font-size:11px;fill:var(--dim)}.label{font-size:12px;fill:var(--dim)}
 .line{fill:none;stroke-width:1.6;stroke-linejoin:round}
 .truth{stroke:var(--truth)}.estimate{stroke:var(--estimate)}.near{stroke:var(--near)}.far{stroke:var(--far)}
-.line.truth{stroke-width:3;stroke-opacity:.6}.dot{stroke:none}.dot.truth{fill:var(--truth)}.dot.estimate{fill:var(--estimate)}
+.guessed{stroke:var(--far);stroke-width:3}.line.truth{stroke-width:3;stroke-opacity:.6}.dot{stroke:none}.dot.truth{fill:var(--truth)}.dot.estimate{fill:var(--estimate)}
 .lost{fill:var(--far);fill-opacity:.22}.coasting{fill:#d29922;fill-opacity:.25}.initializing{fill:var(--dim);fill-opacity:.2}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums}th,td{padding:4px 14px 4px 0;text-align:right;white-space:nowrap}
 .facts td:last-child{white-space:normal;overflow-wrap:anywhere}
 th:first-child{text-align:left;font-weight:500}tr.head th{color:var(--dim);font-weight:500;border-bottom:1px solid var(--rule)}
 .images{display:grid;grid-template-columns:repeat(auto-fit,minmax(300px,1fr));gap:14px}figure{margin:0}img{width:100%;border-radius:6px}
 figcaption{color:var(--dim);font-size:13px}pre{font-size:12px;overflow-x:auto}
+.warning{color:var(--far);font-weight:600}
 .two,.three{display:grid;gap:0 14px}.two{grid-template-columns:repeat(auto-fit,minmax(430px,1fr))}
 .three{grid-template-columns:repeat(auto-fit,minmax(310px,1fr))}
 )";
@@ -45,6 +49,21 @@ std::string section(const std::string& title, const std::string& body) {
 std::string tile(const std::string& value, const std::string& name) {
   return "<div class=\"tile\"><b>" + html_escaped(value) + "</b><span>" + html_escaped(name) +
          "</span></div>\n";
+}
+
+// "95 of 100", "frames tracked (3 coasting, 2 lost)"
+std::string frames_tile(const std::vector<ReportFrame>& frames) {
+  if (frames.empty()) return "";
+  const auto count = [&](const char* state) {
+    return std::count_if(frames.begin(), frames.end(),
+                         [&](const ReportFrame& f) { return f.state == state; });
+  };
+  std::string others;
+  for (const char* state : {"coasting", "lost", "initializing"})
+    if (const auto n = count(state); n > 0)
+      others += fmt::format("{}{} {}", others.empty() ? "" : ", ", n, state);
+  return tile(fmt::format("{} of {}", count("tracking"), frames.size()),
+              "frames tracked" + (others.empty() ? "" : " (" + others + ")"));
 }
 
 std::string tiles(const ReportInput& input) {
@@ -63,7 +82,7 @@ std::string tiles(const ReportInput& input) {
   } else {
     html += tile(fmt::format("{:.1f} m", path_length(input.estimate)), "estimated path");
   }
-  html += tile(std::to_string(input.estimate.size()), "poses");
+  html += tile(std::to_string(input.estimate.size()), "poses") + frames_tile(input.frames);
   return "<div class=\"tiles\">\n" + html + "</div>\n";
 }
 
@@ -75,6 +94,53 @@ Chart sized_chart(std::string title, std::string x_label, std::string y_label, i
   chart.width = width;
   chart.height = height;
   return chart;
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// Where so much time passed between two neighbours that a line from one to the other would show what nobody
+// knows.
+std::vector<bool> gaps_before(const std::vector<double>& times) {
+  constexpr double kMostSteps = 3.5;  // so that three frames left out are still no gap
+  std::vector<bool> gaps(times.size(), false);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  const double usual = statistics_of(steps).median;
+  for (std::size_t i = 1; i < times.size(); ++i) gaps[i] = steps[i - 1] > kMostSteps * usual;
+  return gaps;
+}
+
+// What is not finite breaks the line.
+std::vector<Eigen::Vector2d> broken_at(const std::vector<bool>& gaps,
+                                       const std::vector<Eigen::Vector2d>& points) {
+  std::vector<Eigen::Vector2d> broken;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (gaps[i]) broken.emplace_back(kNan, kNan);
+    broken.push_back(points[i]);
+  }
+  return broken;
+}
+
+// The poses of frames that were not measured, each with the one before it, from which it was carried on.
+std::vector<Eigen::Vector2d> not_measured(const std::vector<ReportFrame>& frames,
+                                          const std::vector<double>& times,
+                                          const std::vector<Eigen::Vector2d>& points) {
+  std::vector<Eigen::Vector2d> found;
+  std::size_t last = points.size();
+  auto frame = frames.begin();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    while (frame != frames.end() && frame->timestamp < times[i] - 1e-6) ++frame;
+    if (frame == frames.end()) break;
+    if (frame->timestamp > times[i] + 1e-6 || (frame->state != "coasting" && frame->state != "lost"))
+      continue;
+    if (i == 0 || last != i - 1) {
+      found.emplace_back(kNan, kNan);
+      if (i > 0) found.push_back(points[i - 1]);
+    }
+    found.push_back(points[i]);
+    last = i;
+  }
+  return found;
 }
 
 std::vector<Eigen::Vector2d> seen_from_above(const std::vector<SE3>& poses, const Eigen::Matrix3d& page) {
@@ -91,23 +157,40 @@ Eigen::Matrix3d turned_to_fit(const std::vector<SE3>& poses, const Eigen::Matrix
   return so3_exp({0, 0, -M_PI / 2}) * level;
 }
 
+// The world's axis that a direction on the page is: "z, m", "-x, m"; "about z, m" if it is a little askew, as
+// the water's plane may be.
+std::string axis_label(const Eigen::RowVector3d& direction) {
+  Eigen::Index axis = 0;
+  const double along = direction.cwiseAbs().maxCoeff(&axis);
+  if (along < 0.9) return "m";
+  return fmt::format("{}{}{}, m", along < 0.999 ? "about " : "", direction[axis] < 0 ? "-" : "", "xyz"[axis]);
+}
+
 std::string top_view(const ReportInput& input) {
   std::vector<SE3> estimate, truth;
-  if (input.evaluation)
+  std::vector<double> times;
+  if (input.evaluation && !input.evaluation->poses.empty())
     for (const AssociatedPose& pose : input.evaluation->poses)
-      estimate.push_back(pose.estimate), truth.push_back(pose.truth);
+      estimate.push_back(pose.estimate), truth.push_back(pose.truth), times.push_back(pose.timestamp);
   else
-    for (const StampedPose& pose : input.estimate) estimate.push_back(pose.world_from_camera);
+    for (const StampedPose& pose : input.estimate)
+      estimate.push_back(pose.world_from_camera), times.push_back(pose.timestamp);
   if (estimate.empty()) return "";
   const std::vector<SE3>& shown = truth.empty() ? estimate : truth;
-  const bool level_already = input.evaluation && input.evaluation->options.planar;
+  const bool level_already = !truth.empty() && input.evaluation->options.planar;
   const Eigen::Vector3d up = level_already ? Eigen::Vector3d(0, 0, 1) : up_direction(shown, UpAxis::kAuto);
   const Eigen::Matrix3d page = turned_to_fit(shown, level_from_world(up));
-  Chart chart = sized_chart("The trajectory from above", "m", "m", 1000, 420);
+  Chart chart =
+      sized_chart("The trajectory from above", axis_label(page.row(0)), axis_label(page.row(1)), 1000, 420);
   chart.equal_scales = true;
-  if (!truth.empty()) chart.series.push_back({"ground truth", "truth", seen_from_above(truth, page)});
-  chart.series.push_back(
-      {"estimate (circle: start, square: end)", "estimate", seen_from_above(estimate, page)});
+  const std::vector<bool> gaps = gaps_before(times);
+  if (!truth.empty())
+    chart.series.push_back({"ground truth", "truth", broken_at(gaps, seen_from_above(truth, page))});
+  const std::vector<Eigen::Vector2d> points = seen_from_above(estimate, page);
+  chart.series.push_back({"estimate (circle: start, square: end)", "estimate", broken_at(gaps, points)});
+  std::vector<Eigen::Vector2d> guessed = not_measured(input.frames, times, points);
+  if (!guessed.empty())
+    chart.series.push_back({"not measured: coasting or lost", "guessed", std::move(guessed), false});
   return svg_chart(chart);
 }
 
@@ -118,6 +201,7 @@ std::string error_chart(const char* title, const char* unit, const std::vector<d
   ChartSeries series{title, "estimate", {}};
   for (std::size_t i = 0; i < errors.size(); ++i)
     series.points.emplace_back(timestamps[i] - timestamps.front(), errors[i]);
+  series.points = broken_at(gaps_before(timestamps), series.points);
   chart.series.push_back(std::move(series));
   return svg_chart(chart);
 }
@@ -150,12 +234,15 @@ std::string metrics_table(const Evaluation& e) {
   const char* mode = option_names(e.options.align)[static_cast<std::size_t>(e.options.align)];
   html += fmt::format(
       "<p class=\"dim\">{} of {} poses associated; alignment: {}{}; path {:.2f} m estimated, {:.2f} m true",
-      e.poses.size(), e.estimate_poses, e.options.planar ? "planar " : "", mode, e.estimate_length,
+      e.associated_poses, e.estimate_poses, e.options.planar ? "planar " : "", mode, e.estimate_length,
       e.truth_length);
   if (e.kitti.count > 0)
     html += fmt::format("; KITTI t_rel {:.3f} %, r_rel {:.3f} deg/100 m", e.kitti.t_rel, e.kitti.r_rel);
   for (const std::string& note : e.notes) html += "<br>" + html_escaped(note);
-  return html + "</p>\n";
+  html += "</p>\n";
+  for (const std::string& warning : e.warnings)
+    html += "<p class=\"warning\">" + html_escaped(warning) + "</p>\n";
+  return html;
 }
 
 // Neighbouring frames of one state that is not tracking make one band.
@@ -219,6 +306,7 @@ std::string html_report(const ReportInput& input) {
       "</title>\n<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><style>" + kStyle +
       "</style></head>\n<body><main>\n<h1>" + html_escaped(input.title) +
       "</h1>\n<div class=\"dim\">SP-SLAM run report</div>\n";
+  for (const std::string& note : input.notes) html += "<p class=\"warning\">" + html_escaped(note) + "</p>\n";
   html += tiles(input);
   html += section("From above", top_view(input));
   if (input.evaluation)

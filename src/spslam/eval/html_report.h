@@ -39,11 +39,13 @@ struct ReportInput {
   std::vector<std::pair<std::string, std::string>>
       facts;  // name and value: dataset, preset, peak memory, ...
   Trajectory estimate;
-  std::optional<Evaluation> evaluation;  // with ground truth
+  std::optional<Evaluation>
+      evaluation;  // with ground truth; its poses may be missing, and are not drawn then
   std::vector<ReportFrame> frames;
   std::vector<ReportStage> timing;
   std::vector<ReportImage> images;
-  std::string config;  // the effective options as text
+  std::string config;              // the effective options as text
+  std::vector<std::string> notes;  // what is missing in the page, and why
 };
 
 // A complete HTML document: no script, nothing loaded from elsewhere, readable in light and dark.

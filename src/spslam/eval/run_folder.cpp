@@ -98,6 +98,20 @@ void add_images(const std::filesystem::path& folder, ReportInput& report) {
     report.images.push_back({file.stem().string(), read_text_file(file)});
 }
 
+void add_frame_facts(ReportInput& report) {
+  if (report.frames.empty()) return;
+  const auto add = [&](const char* name, auto is_one) {
+    const auto count = std::count_if(report.frames.begin(), report.frames.end(), is_one);
+    report.facts.emplace_back(name, std::to_string(count));
+  };
+  add("frames", [](const ReportFrame&) { return true; });
+  add("frames tracked", [](const ReportFrame& f) { return f.state == "tracking"; });
+  add("frames coasting", [](const ReportFrame& f) { return f.state == "coasting"; });
+  add("frames lost", [](const ReportFrame& f) { return f.state == "lost"; });
+  add("frames initializing", [](const ReportFrame& f) { return f.state == "initializing"; });
+  add("keyframes", [](const ReportFrame& f) { return f.keyframe; });
+}
+
 }  // namespace
 
 std::vector<ReportFrame> parse_frames_csv(std::string_view text, const std::string& name) {
@@ -114,6 +128,9 @@ std::vector<ReportFrame> parse_frames_csv(std::string_view text, const std::stri
   if (time < 0) reader.fail("has no column 'timestamp'; the first line must name the columns");
   while (reader.next()) {
     const std::vector<std::string> fields = csv_fields(reader.line());
+    if (fields.size() != head.size())
+      reader.fail("has " + std::to_string(fields.size()) + " fields, the first line names " +
+                  std::to_string(head.size()) + " columns; was the file cut off?");
     ReportFrame frame;
     frame.timestamp = reader.real(csv_field(fields, time));
     frame.state = csv_field(fields, state);
@@ -135,24 +152,38 @@ void parse_timing_json(std::string_view text, const std::string& name, ReportInp
 ReportInput read_run_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string() + " is not a folder; give the output folder of `spslam run`");
-  const auto file = [&](const char* name) { return folder / name; };
-  const auto has = [&](const char* name) { return std::filesystem::exists(file(name)); };
-  const auto text = [&](const char* name) { return read_text_file(file(name)); };
   ReportInput report;
   report.title = std::filesystem::absolute(folder).lexically_normal().filename().string();
-  report.estimate = read_trajectory(file("trajectory_tum.txt"), {TrajectoryFormat::kTum, {}, {}});
-  if (has("frames.csv")) report.frames = parse_frames_csv(text("frames.csv"), file("frames.csv").string());
-  if (!report.frames.empty()) {
-    const auto keyframes =
-        std::count_if(report.frames.begin(), report.frames.end(), [](const auto& f) { return f.keyframe; });
-    const auto tracked = std::count_if(report.frames.begin(), report.frames.end(),
-                                       [](const auto& f) { return f.state == "tracking"; });
-    report.facts.emplace_back("frames", std::to_string(report.frames.size()));
-    report.facts.emplace_back("frames tracked", std::to_string(tracked));
-    report.facts.emplace_back("keyframes", std::to_string(keyframes));
+  enum class Missing { kIsSaid, kIsUsual };
+  const auto read = [&](const char* name, Missing missing, const auto& use) {
+    const std::filesystem::path file = folder / name;
+    if (!std::filesystem::exists(file)) {
+      if (missing == Missing::kIsSaid)
+        report.notes.push_back(std::string(name) + " is not there, was the run killed?");
+      return;
+    }
+    try {
+      use(read_text_file(file), file.string());
+    } catch (const InputError& error) {
+      report.notes.push_back(std::string("left out: ") + error.what());
+    }
+  };
+  using Text = const std::string&;
+  read("trajectory_tum.txt", Missing::kIsSaid,
+       [&](Text text, Text name) { report.estimate = parse_tum(text, name); });
+  read("frames.csv", Missing::kIsSaid,
+       [&](Text text, Text name) { report.frames = parse_frames_csv(text, name); });
+  if (report.estimate.empty() && report.frames.empty()) {
+    std::string why;
+    for (const std::string& note : report.notes) why += "; " + note;
+    throw InputError(folder.string() +
+                     " has neither a trajectory_tum.txt nor a frames.csv with anything in it" + why);
   }
-  if (has("timing.json")) parse_timing_json(text("timing.json"), file("timing.json").string(), report);
-  if (has("config.yaml")) report.config = text("config.yaml");
+  add_frame_facts(report);
+  read("timing.json", Missing::kIsSaid, [&](Text text, Text name) { parse_timing_json(text, name, report); });
+  read("metrics.json", Missing::kIsUsual,
+       [&](Text text, Text name) { report.evaluation = parse_json_report(text, name); });
+  read("config.yaml", Missing::kIsUsual, [&](Text text, Text) { report.config = text; });
   add_images(folder / "samples", report);
   return report;
 }

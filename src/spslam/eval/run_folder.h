@@ -10,8 +10,10 @@
 
 namespace spslam {
 
-// Reads trajectory_tum.txt (required) and, as far as they are there, frames.csv, timing.json, config.yaml and
-// samples/*.png (in the order of their names, which become the captions). Throws InputError.
+// Reads trajectory_tum.txt, frames.csv, timing.json, metrics.json, config.yaml and samples/*.png (in the
+// order of their names, which become the captions). What is missing, as after a kill, or damaged is left out,
+// and the notes say so. Throws InputError if there is neither a trajectory nor a table of frames that can be
+// read.
 ReportInput read_run_folder(const std::filesystem::path& folder);
 
 // frames.csv: a head line with column names, of which timestamp is required and state, near, far and keyframe

@@ -119,6 +119,11 @@ std::vector<Eigen::Vector2d> thinned(const Chart& chart, const std::vector<Eigen
   for (std::size_t i = 0; i < points.size(); i += 2 * stretch) {
     const auto first = points.begin() + static_cast<std::ptrdiff_t>(i);
     const auto last = points.begin() + static_cast<std::ptrdiff_t>(std::min(i + 2 * stretch, points.size()));
+    // A break must stay one, and it compares with nothing.
+    if (!std::all_of(first, last, [](const Eigen::Vector2d& p) { return p.allFinite(); })) {
+      kept.insert(kept.end(), first, last);
+      continue;
+    }
     auto [low, high] =
         std::minmax_element(first, last, [](const auto& a, const auto& b) { return a.y() < b.y(); });
     if (high < low) std::swap(low, high);
@@ -137,7 +142,7 @@ std::string line(const Chart& chart, const Frame& frame, const ChartSeries& seri
     drawing = p.allFinite();
   }
   std::string svg = fmt::format("<path class=\"line {}\" d=\"{}\"/>\n", series.css_class, path);
-  if (!chart.equal_scales || series.points.empty()) return svg;
+  if (!chart.equal_scales || !series.has_ends || series.points.empty()) return svg;
   const Eigen::Vector2d start = series.points.front(), end = series.points.back();
   svg += fmt::format(
       "<circle class=\"dot {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"><title>{}: start</title></circle>\n",

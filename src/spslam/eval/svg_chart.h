@@ -13,6 +13,7 @@ struct ChartSeries {
   std::string name;
   std::string css_class;  // gives the line its colour in the page's style sheet
   std::vector<Eigen::Vector2d> points;
+  bool has_ends = true;  // marked where scales are equal
 };
 
 // A range of x shaded behind the lines, such as frames without tracking.
@@ -30,7 +31,7 @@ struct Chart {
   std::vector<ChartSeries> series;
   std::vector<ChartBand> bands;
   bool equal_scales =
-      false;  // one metre is as long along x as along y (maps); marks start and end of each series
+      false;  // one metre is as long along x as along y (maps); marks start and end of a series that has them
   bool from_zero = true;  // y begins at 0 unless equal_scales
   int width = 720;        // px
   int height = 260;       // px

@@ -15,10 +15,18 @@ struct TimedFile {
   bool has_times = true;
 };
 
+// What `spslam run` writes beside its trajectory_kitti.txt.
+std::filesystem::path times_beside(const std::filesystem::path& path) {
+  return path.parent_path() / (path.stem().string() + "_times.txt");
+}
+
 TimedFile read_one(const std::filesystem::path& path, TrajectoryFormat format,
-                   const std::filesystem::path& times) {
+                   const std::filesystem::path& given_times) {
   if (std::filesystem::is_directory(path))
     throw InputError(path.string() + " is a folder; give the trajectory file in it");
+  // One file of times is given for two trajectories; what lies beside one of them is surely its own.
+  const std::filesystem::path times =
+      std::filesystem::exists(times_beside(path)) ? times_beside(path) : given_times;
   TimedFile file;
   const TrajectoryFormat known =
       format == TrajectoryFormat::kAuto ? recognise_trajectory(read_text_file(path)) : format;

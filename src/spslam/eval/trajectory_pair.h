@@ -15,8 +15,9 @@ struct TrajectoryPairFiles {
   std::filesystem::path truth;
   TrajectoryFormat estimate_format = TrajectoryFormat::kAuto;
   TrajectoryFormat truth_format = TrajectoryFormat::kAuto;
-  std::filesystem::path
-      times;  // of the KITTI files among them; empty: the times.txt beside each, if there is one
+  // Of the KITTI files among them that have no NAME_times.txt beside them; empty: the times.txt beside each,
+  // if there is one.
+  std::filesystem::path times;
 };
 
 struct TrajectoryPair {

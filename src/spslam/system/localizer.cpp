@@ -134,7 +134,7 @@ void Localizer::take(const Answer& answer) {
     std::erase_if(used_, [&](const SeenPlace& other) { return other.frame == seen.frame; });
   used_.push_back(seen);
   if (answered == FilterAnswer::kUsed) return;
-  spdlog::info("frame {}: found in the map, uncertainty {:.2f} m", now.frame.value, present.position_sigma());
+  spdlog::info("found in the map at {:.3f} s, uncertainty {:.2f} m", now.timestamp, present.position_sigma());
   place_backwards();
 }
 

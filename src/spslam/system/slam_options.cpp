@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace spslam {
@@ -32,11 +33,15 @@ SlamOptions feature_slam_options() {
   return options;
 }
 
-void apply_node(SlamOptions& options, const YAML::Node& node, const std::string& prefix) {
+// Each key once: of two values one would be forgotten without a word.
+void apply_node(SlamOptions& options, const YAML::Node& node, const std::string& prefix,
+                std::set<std::string>& given) {
   for (const auto& entry : node) {
     const std::string key = prefix + entry.first.as<std::string>();
     if (entry.second.IsMap())
-      apply_node(options, entry.second, key + ".");
+      apply_node(options, entry.second, key + ".", given);
+    else if (!given.insert(key).second)
+      throw OptionError("option " + key + ": is given twice; leave one of them out");
     else if (entry.second.IsScalar())
       set_option(options, key, entry.second.as<std::string>());
     else
@@ -71,7 +76,8 @@ void apply_yaml(SlamOptions& options, const std::string& text, const std::string
     const YAML::Node root = YAML::Load(text);
     if (root.IsNull()) return;
     if (!root.IsMap()) throw OptionError("a map of options is expected, like `tracker: {window_frames: 5}`");
-    apply_node(options, root, "");
+    std::set<std::string> given;
+    apply_node(options, root, "", given);
   } catch (const YAML::Exception& error) {
     throw OptionError(name + ": not valid YAML: " + error.what());
   } catch (const OptionError& error) {
