@@ -44,7 +44,7 @@ std::vector<LoopAttempt> attempts(const std::vector<double>& way, const Detectio
                                   const SE3& error_of_odometry = {}, bool corrections_fail = false) {
   const auto world = make_world({.points = 900, .nearest = 6});
   const Vocabulary vocabulary = built_in_vocabulary();
-  LoopCloser closer(boat_rig(), options, {}, vocabulary);
+  LoopCloser closer(boat_rig(), options, {}, {}, vocabulary);
   Map map;
   std::vector<LoopAttempt> out;
   for (std::size_t i = 0; i < way.size(); ++i) {
@@ -125,7 +125,7 @@ TEST(LoopCloser, AKeyframeWithoutFeaturesIsNoCandidateAndNoCrash) {
   Map map;
   map.add(Keyframe{id_of(0), {0}, 0, {}});
   const Vocabulary vocabulary = built_in_vocabulary();
-  LoopCloser closer(boat_rig(), {}, {}, vocabulary);
+  LoopCloser closer(boat_rig(), {}, {}, {}, vocabulary);
   EXPECT_TRUE(closer.detect(map, id_of(0)).candidates.empty());
   EXPECT_TRUE(closer.detect(map, id_of(7)).candidates.empty());
 }

@@ -14,6 +14,7 @@ namespace spslam {
 namespace {
 
 constexpr int kLevels = 4;
+const std::vector<KeyframeId> kBoth = {{0}, {1}};
 
 // Two keyframes before a plane, each the host of a grid of landmarks whose depths are right.
 Map plane_map(const test::PlaneScene& scene, bool with_images = true) {
@@ -60,7 +61,7 @@ TEST(PatchPose, FindsTheTruthFromWhatFeaturesLeaveOpen) {
   const Map map = plane_map(scene);
   const SE3 start = near_the_truth();
   EXPECT_GT(position_error(start), 0.05);
-  const auto found = pose_by_patches(map, scene.rig(), seen(scene.render(kTruth)), start, {});
+  const auto found = pose_by_patches(map, scene.rig(), seen(scene.render(kTruth)), start, kBoth, {});
   ASSERT_TRUE(found);
   EXPECT_LT(position_error(found->camera_from_world), 0.003);
   EXPECT_LT(found->position_sigma(), 0.02);
@@ -72,7 +73,7 @@ TEST(PatchPose, AnotherLightIsNoOtherPlace) {
   const test::PlaneScene scene(11);
   cv::Mat image;
   scene.render(kTruth).convertTo(image, CV_8UC1, 0.5, 70);
-  const auto found = pose_by_patches(plane_map(scene), scene.rig(), seen(image), near_the_truth(), {});
+  const auto found = pose_by_patches(plane_map(scene), scene.rig(), seen(image), near_the_truth(), kBoth, {});
   ASSERT_TRUE(found);
   EXPECT_LT(position_error(found->camera_from_world), 0.003);
 }
@@ -82,33 +83,33 @@ TEST(PatchPose, WhatIsInTheWayIsLeftOut) {
   cv::Mat image = scene.render(kTruth);
   const cv::Rect boat(0, 0, 130, 240);
   other.render(kTruth)(boat).copyTo(image(boat));
-  const auto found = pose_by_patches(plane_map(scene), scene.rig(), seen(image), near_the_truth(), {});
+  const auto found = pose_by_patches(plane_map(scene), scene.rig(), seen(image), near_the_truth(), kBoth, {});
   ASSERT_TRUE(found);
   EXPECT_LT(position_error(found->camera_from_world), 0.01);
 }
 
 TEST(PatchPose, NothingFromAnotherPlace) {
   const test::PlaneScene scene(11), other(21);
-  EXPECT_FALSE(
-      pose_by_patches(plane_map(scene), scene.rig(), seen(other.render(kTruth)), near_the_truth(), {}));
+  EXPECT_FALSE(pose_by_patches(plane_map(scene), scene.rig(), seen(other.render(kTruth)), near_the_truth(),
+                               kBoth, {}));
 }
 
 TEST(PatchPose, NothingWithoutImages) {
   const test::PlaneScene scene(11);
   const AlignmentPyramid image = seen(scene.render(kTruth));
-  EXPECT_FALSE(pose_by_patches(plane_map(scene, false), scene.rig(), image, kTruth, {}));
-  EXPECT_FALSE(pose_by_patches({}, scene.rig(), image, kTruth, {}));
-  EXPECT_FALSE(pose_by_patches(plane_map(scene), scene.rig(), {}, kTruth, {}));
+  EXPECT_FALSE(pose_by_patches(plane_map(scene, false), scene.rig(), image, kTruth, kBoth, {}));
+  EXPECT_FALSE(pose_by_patches({}, scene.rig(), image, kTruth, kBoth, {}));
+  EXPECT_FALSE(pose_by_patches(plane_map(scene), scene.rig(), {}, kTruth, kBoth, {}));
   PatchPoseOptions off;
   off.enabled = false;
-  EXPECT_FALSE(pose_by_patches(plane_map(scene), scene.rig(), image, kTruth, off));
+  EXPECT_FALSE(pose_by_patches(plane_map(scene), scene.rig(), image, kTruth, kBoth, off));
 }
 
 TEST(PatchPose, NumbersThatAreNotFiniteAreNothing) {
   const test::PlaneScene scene(11);
   const AlignmentPyramid image = seen(scene.render(kTruth));
   const SE3 nowhere{Eigen::Matrix3d::Identity(), {std::nan(""), 0, 0}};
-  EXPECT_FALSE(pose_by_patches(plane_map(scene), scene.rig(), image, nowhere, {}));
+  EXPECT_FALSE(pose_by_patches(plane_map(scene), scene.rig(), image, nowhere, kBoth, {}));
 }
 
 TEST(KeyframeImage, IsWhatItWasToAFewGreyValues) {

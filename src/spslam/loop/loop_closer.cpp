@@ -16,6 +16,7 @@ constexpr int kConfirmersTried = 3;  // for each confirmation wanted
 constexpr double kAgreementSigmas = 4;
 constexpr double kAgreementFloor = 0.1;  // m; poses of neighbours are not exact either
 constexpr double kAgreementTurn = 1.5;   // deg
+constexpr double kScaleError = 0.01;     // of depths, at least
 
 double degrees(const SE3& motion) {
   return so3_log(motion.rotation).norm() * 180 / M_PI;
@@ -47,11 +48,13 @@ LoopClosure closure_of(KeyframeId newer, const Place& place, const Verification&
 }  // namespace
 
 LoopCloser::LoopCloser(const StereoRig& rig, const DetectionOptions& detection,
-                       const VerificationOptions& verification, const Vocabulary& vocabulary)
-    : rig_(rig), options_(detection), verification_(verification), index_(vocabulary) {
+                       const VerificationOptions& verification, const PatchPoseOptions& patches,
+                       const Vocabulary& vocabulary)
+    : rig_(rig), options_(detection), verification_(verification), patches_(patches), index_(vocabulary) {
   rig.check();
   check_options(detection);
   check_options(verification);
+  check_options(patches);
 }
 
 void LoopCloser::add(const Map& map, KeyframeId id) {
@@ -178,6 +181,7 @@ void LoopCloser::examine(const Map& map, const Keyframe& keyframe, LoopCandidate
     return;
   const Place place = place_of(map, rig_, candidate.keyframe, verification_.neighbours);
   Verification verified = verify(place, *keyframe.features, rig_, index_.vocabulary(), verification_);
+  if (verified.accepted()) make_precise(map, keyframe, candidate.keyframe, verified);
   LoopClosure closure = closure_of(keyframe.id, place, verified);
   verified.pairs.clear();
   candidate.verification = std::move(verified);
@@ -190,6 +194,26 @@ void LoopCloser::examine(const Map& map, const Keyframe& keyframe, LoopCandidate
   if (candidate.confirmed < options_.confirmations) return;
   candidate.stage = LoopStage::kAccepted;
   attempt.closure = std::move(closure);
+}
+
+// By the patches of the older side's keyframes: of those around the candidate that are not of today.
+void LoopCloser::make_precise(const Map& map, const Keyframe& keyframe, KeyframeId older,
+                              Verification& verified) const {
+  const SE3 older_from_world = map.find(older)->camera_from_world;
+  const std::set<KeyframeId> young = excluded(map, keyframe.id);
+  std::vector<KeyframeId> side = {older};
+  for (const Covisible& near : map.covisible(older))
+    if (static_cast<int>(side.size()) < patches_.keyframes && !young.contains(near.id))
+      side.push_back(near.id);
+  const auto precise = pose_by_patches(map, rig_, pyramid_of(keyframe, rig_, patches_.alignment),
+                                       verified.newer_from_older * older_from_world, side, patches_);
+  if (!precise) return;
+  verified.newer_from_older = (precise->camera_from_world * older_from_world.inverse()).normalized();
+  // Where the two sides' depths are of different scale, one of them is wrong, and the translation as well.
+  const Eigen::Vector3d off =
+      std::hypot(kScaleError, std::log(verified.scale)) * verified.newer_from_older.translation;
+  verified.covariance = precise->covariance;
+  verified.covariance.topLeftCorner<3, 3>() += off * off.transpose();
 }
 
 // A wall that repeats itself looks like a loop that is one period off; but odometry does not drift that much.
@@ -213,8 +237,9 @@ int LoopCloser::confirm(const Map& map, const Keyframe& keyframe, const Place& p
     if (confirmed >= options_.confirmations || tried >= kConfirmersTried * options_.confirmations) break;
     if (!other.features) continue;
     ++tried;
-    const Verification verified = verify(place, *other.features, rig_, index_.vocabulary(), verification_);
+    Verification verified = verify(place, *other.features, rig_, index_.vocabulary(), verification_);
     if (!verified.accepted()) continue;
+    make_precise(map, other, place.id, verified);
     const SE3 expected = other.camera_from_world * keyframe.camera_from_world.inverse() *
                          candidate.verification.newer_from_older;
     const SE3 off = verified.newer_from_older * expected.inverse();

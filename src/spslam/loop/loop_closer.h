@@ -10,6 +10,7 @@
 
 #include "spslam/loop/correction.h"
 #include "spslam/loop/keyframe_index.h"
+#include "spslam/loop/patch_pose.h"
 #include "spslam/loop/verification.h"
 
 namespace spslam {
@@ -90,7 +91,7 @@ class LoopCloser {
  public:
   // Throws OptionError.
   LoopCloser(const StereoRig& rig, const DetectionOptions& detection, const VerificationOptions& verification,
-             const Vocabulary& vocabulary);
+             const PatchPoseOptions& patches, const Vocabulary& vocabulary);
 
   // Looks for a loop that ends in this keyframe and adds it to the index; keyframes in ascending order, each
   // once. The same for the same calls.
@@ -120,6 +121,7 @@ class LoopCloser {
   std::vector<LoopCandidate> find_candidates(const Map& map, const Keyframe& keyframe, LoopAttempt& attempt);
   void examine(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate,
                LoopAttempt& attempt) const;
+  void make_precise(const Map& map, const Keyframe& keyframe, KeyframeId older, Verification& verified) const;
   bool is_plausible(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate) const;
   int confirm(const Map& map, const Keyframe& keyframe, const Place& place,
               const LoopCandidate& candidate) const;
@@ -127,6 +129,7 @@ class LoopCloser {
   StereoRig rig_;
   DetectionOptions options_;
   VerificationOptions verification_;
+  PatchPoseOptions patches_;
   KeyframeIndex index_;
   std::vector<Trail> trails_;
   KeyframeId last_closed_;

@@ -20,14 +20,14 @@ constexpr double kSecondMove = 0.25;  // of max_move, from where the pose found 
 constexpr int kPatchSolverSteps = 20;
 
 // Copies with images and sightings.
-std::vector<Keyframe> hosts_around(const Map& map, const StereoRig& rig, const SE3& camera_from_world,
-                                   const PatchPoseOptions& options) {
+std::vector<Keyframe> with_images(const Map& map, const StereoRig& rig, const std::vector<KeyframeId>& ids,
+                                  const AlignmentOptions& options) {
   std::vector<Keyframe> out;
-  for (const KeyframeId id : nearest_keyframes(map, camera_from_world, options.keyframes)) {
-    Keyframe host = *map.find(id);
-    if (host.left.empty() && host.image)
-      if (const cv::Mat image = decompress(*host.image, rig.width, rig.height); !image.empty())
-        host.left = {image, options.alignment.levels, options.alignment.noise_factor > 0};
+  for (const KeyframeId id : ids) {
+    const Keyframe* keyframe = map.find(id);
+    if (!keyframe) continue;
+    Keyframe host = *keyframe;
+    host.left = pyramid_of(host, rig, options);
     if (!host.left.empty()) out.push_back(std::move(host));
   }
   return out;
@@ -87,9 +87,10 @@ Agreement agreement_of(const Problem& solved) {
 
 std::optional<UncertainPose> pose_by_patches(const Map& map, const StereoRig& rig,
                                              const AlignmentPyramid& left, const SE3& start,
+                                             const std::vector<KeyframeId>& keyframes,
                                              const PatchPoseOptions& options) {
   if (!options.enabled || left.empty() || !start.is_finite()) return std::nullopt;
-  const std::vector<Keyframe> hosts = hosts_around(map, rig, start, options);
+  const std::vector<Keyframe> hosts = with_images(map, rig, keyframes, options.alignment);
   Keyframe camera;
   camera.camera_from_world = start, camera.left = left;
   std::optional<UncertainPose> out;
@@ -112,6 +113,13 @@ std::optional<UncertainPose> pose_by_patches(const Map& map, const StereoRig& ri
     out = {pose, summary.covariance * std::max(1.0, all.squares / all.inliers)};
   }
   return out;
+}
+
+AlignmentPyramid pyramid_of(const Keyframe& keyframe, const StereoRig& rig, const AlignmentOptions& options) {
+  if (!keyframe.left.empty() || !keyframe.image) return keyframe.left;
+  const cv::Mat image = decompress(*keyframe.image, rig.width, rig.height);
+  return image.empty() ? AlignmentPyramid()
+                       : AlignmentPyramid(image, options.levels, options.noise_factor > 0);
 }
 
 std::vector<KeyframeId> nearest_keyframes(const Map& map, const SE3& camera_from_world, int count) {

@@ -24,7 +24,7 @@ struct PatchPoseOptions {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.enabled, {"enabled", "", "align patches of the map's keyframes with what was recognized"});
-    visit(self.keyframes, {"keyframes", "", "nearest ones whose landmarks are looked for", 1, 100});
+    visit(self.keyframes, {"keyframes", "", "of the place, whose landmarks are looked for", 1, 100});
     visit(self.max_move, {"max_move", "px", "from where the features' pose puts a patch to it", 0.1, 100});
     visit(self.min_landmarks,
           {"min_landmarks", "", "found ones that agree with one pose, at least", 6, 10000});
@@ -35,12 +35,15 @@ struct PatchPoseOptions {
   }
 };
 
-// The pose of `left` near `start` (camera_from_world), by the landmarks that the keyframes nearest to it
-// host. Of the keyframes those count that still have an image, as a pyramid or compressed. Nothing if too few
-// landmarks are found where one pose puts them.
+// The pose of `left` near `start` (camera_from_world), by the landmarks that these keyframes host, as far as
+// they still have an image. Nothing if too few landmarks are found where one pose puts them.
 std::optional<UncertainPose> pose_by_patches(const Map& map, const StereoRig& rig,
                                              const AlignmentPyramid& left, const SE3& start,
+                                             const std::vector<KeyframeId>& keyframes,
                                              const PatchPoseOptions& options);
+
+// Of the keyframe's left image, be it there still or compressed; empty if it has none.
+AlignmentPyramid pyramid_of(const Keyframe& keyframe, const StereoRig& rig, const AlignmentOptions& options);
 
 // Keyframes that look from about there in about that direction, nearest first, at most so many.
 std::vector<KeyframeId> nearest_keyframes(const Map& map, const SE3& camera_from_world, int count);

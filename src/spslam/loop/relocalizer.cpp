@@ -26,7 +26,9 @@ void make_precise(const AlignmentPyramid& left, const Map& map, const StereoRig&
                   const RelocalizationOptions& options, RelocalizationAttempt& attempt) {
   std::optional<Relocalized>& known = attempt.found ? attempt.found : attempt.imprecise;
   if (!known) return;
-  const auto precise = pose_by_patches(map, rig, left, known->camera_from_world, options.patches);
+  const std::vector<KeyframeId> around =
+      nearest_keyframes(map, known->camera_from_world, options.patches.keyframes);
+  const auto precise = pose_by_patches(map, rig, left, known->camera_from_world, around, options.patches);
   if (!precise) return;
   known->camera_from_world = precise->camera_from_world, known->covariance = precise->covariance;
   known->by_patches = true;

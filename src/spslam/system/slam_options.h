@@ -29,6 +29,7 @@ struct LoopOptions {
   bool enabled = true;
   DetectionOptions detection;
   VerificationOptions verification;
+  PatchPoseOptions patches;
   EssentialGraphOptions graph;
   FusionOptions fusion;
   FullAdjustmentOptions full_adjustment;
@@ -39,6 +40,7 @@ struct LoopOptions {
     visit(self.enabled, {"enabled", "", "close loops"});
     visit.group("detection", self.detection);
     visit.group("verification", self.verification);
+    visit.group("patches", self.patches);
     visit.group("graph", self.graph);
     visit.group("fusion", self.fusion);
     visit.group("full_adjustment", self.full_adjustment);

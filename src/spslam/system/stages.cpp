@@ -21,7 +21,8 @@ Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map)
       options_(options),
       tracker_(rig, options.tracker),
       mapper_(rig, options.tracker.orb, options.mapper, std::move(map)),
-      closer_(rig, options.loop.detection, options.loop.verification, built_in_vocabulary()) {
+      closer_(rig, options.loop.detection, options.loop.verification, options.loop.patches,
+              built_in_vocabulary()) {
   const Map& known = mapper_.map();
   if (!known.keyframes().empty()) {
     tracker_.continue_map({known.keyframes().rbegin()->first.value + 1},
