@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a user of the library includes: the system, its options, and what goes in and comes out.
 //
-//   spslam::Slam slam(rig);                                   // rig: focal length, principal point,
-//   baseline, image size const spslam::TrackResult result = slam.track(t, left, right); if (result.status ==
-//   spslam::TrackStatus::kTracking) use(result.world_from_camera, result.covariance); slam.finish(); for
-//   (const spslam::TrajectoryPose& pose : slam.trajectory()) save(pose);
+// clang-format off
+//   spslam::Slam slam(rig);  // focal length, principal point, baseline, image size
+//   const spslam::TrackResult result = slam.track(t, left, right);
+//   if (result.status == spslam::TrackStatus::kTracking) use(result.world_from_camera, result.covariance);
+//   slam.finish();
+//   for (const spslam::TrajectoryPose& pose : slam.trajectory()) save(pose);
+// clang-format on
 #pragma once
 
 #include "spslam/base/error.h"

@@ -57,6 +57,21 @@ TEST(VocabularyCommand, TrainsConvertsDescribesAndMeasures) {
   EXPECT_THAT(result.out, HasSubstr("3 queries, 3 revisits; best answer right 100.0 %"));
 }
 
+TEST(VocabularyCommand, ARunUsesTheOneItIsGiven) {
+  const TemporaryFolder folder;
+  const std::string run = write_sequence(folder), own = folder.path("own.spv"), out = folder.path("result");
+  ASSERT_EQ(run_spslam({"vocabulary", "train", run, "--output", own, "--branching", "6", "--levels", "3"})
+                .exit_code,
+            0);
+  run_spslam({"run", run, "--output", out, "--vocabulary", own, "--samples", "0", "--quiet"});
+  EXPECT_THAT(read_file(out + "/config.yaml"), HasSubstr("# vocabulary: " + own));
+  const ProcessResult result =
+      run_spslam({"run", run, "--output", folder.path("other"), "--vocabulary", folder.path("none.spv")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("none.spv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("other")));  // before anything is begun
+}
+
 TEST(VocabularyCommand, SaysWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string foreign = folder.write("foreign.spv", "not a vocabulary");

@@ -150,8 +150,8 @@ TEST(Localizer, ThreadsFindItToo) {
 double error_of_first(const std::vector<TrajectoryPose>& session) {
   SlamOptions options = localizing();
   options.localization.interval = options.localization.confirmations = 1;
-  Localizer localizer(scene_rig(), options, known_map());
-  Stages odometry(scene_rig(), options, Map{});
+  Localizer localizer(scene_rig(), options, known_map(), built_in_vocabulary());
+  Stages odometry(scene_rig(), options, Map{}, built_in_vocabulary());
   for (const StereoFrame& pair : scene_pairs()) {
     TrackerOutput output = odometry.track(pair);
     output.result.world_from_camera.translation *= 1.5;

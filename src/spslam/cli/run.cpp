@@ -50,7 +50,7 @@ int run_dataset(const RunArguments& arguments) {
   RunRecord record;
   Map known = known_map(arguments, dataset->rig());
   for (const auto& [id, keyframe] : known.keyframes()) record.loaded.insert(id);
-  Slam slam(dataset->rig(), options, std::move(known));
+  Slam slam(dataset->rig(), options, std::move(known), read_vocabulary(arguments.vocabulary));
   Prefetcher frames(*dataset, arguments.start, arguments.end, 2);
   const ResultFolder folder(arguments.output, arguments.overwrite);
   const std::vector<std::string> origin = provenance(arguments, options);
@@ -114,6 +114,11 @@ void add_run(CLI::App& app, Command& chosen) {
                  "Say where in that map the boat is and leave the map as it is (localization.enabled)")
       ->needs("--load-map")
       ->excludes("--save-map");
+  command
+      ->add_option("--vocabulary", arguments->vocabulary,
+                   "What places are recognized with: a file of `spslam vocabulary train`, or .txt of DBoW2")
+      ->type_name("FILE")
+      ->capture_default_str();
   command
       ->add_option("--samples", arguments->samples,
                    "Pictures of the run's features, near and far, for its report")

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "spslam/cli/run_options.h"
+#include "spslam/cli/vocabulary_file.h"
 #include "spslam/io/dataset.h"
 
 namespace spslam {
@@ -20,6 +21,7 @@ struct RunArguments {
   int samples = 6;
   double checkpoint = 30;  // s
   std::string save_map, load_map;
+  std::string vocabulary = kBuiltIn;
   bool localize = false;
   bool sequential = false, realtime = false, ahead = false, overwrite = false, quiet = false;
 };

@@ -84,6 +84,7 @@ std::vector<std::string> provenance(const RunArguments& arguments, const SlamOpt
                             to_the_last ? "to the last" : fmt::format("--end {}", arguments.end)));
   if (!arguments.load_map.empty())
     say(arguments.localize ? "localized in the map" : "continued map", full_path(arguments.load_map));
+  if (arguments.vocabulary != kBuiltIn) say("vocabulary", full_path(arguments.vocabulary));
   if (!arguments.save_map.empty()) say("saved map", full_path(arguments.save_map));
   if (!arguments.options.config.empty()) say("options from", full_path(arguments.options.config));
   say("options", described_options(options));

@@ -12,6 +12,7 @@
 #include "spslam/base/error.h"
 #include "spslam/cli/commands.h"
 #include "spslam/cli/reading_options.h"
+#include "spslam/cli/vocabulary_file.h"
 #include "spslam/features/orb_extractor.h"
 #include "spslam/io/dataset.h"
 #include "spslam/io/text.h"
@@ -21,8 +22,6 @@ namespace spslam {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kBuiltIn = "built-in";
 
 struct ImageArguments {
   std::vector<std::string> datasets;
@@ -48,11 +47,6 @@ struct RecallArguments {
 
 bool is_text(const fs::path& path) {
   return path.extension() == ".txt";
-}
-
-Vocabulary read_vocabulary(const std::string& name) {
-  if (name == kBuiltIn) return built_in_vocabulary();
-  return is_text(name) ? Vocabulary::read_dbow2_text(name) : Vocabulary::open(name);
 }
 
 void write_vocabulary(const Vocabulary& vocabulary, const std::string& name) {

@@ -14,12 +14,8 @@ constexpr double kLostVariance = 1e6;  // m^2 and rad^2: nothing is known
 
 }  // namespace
 
-Localizer::Localizer(const StereoRig& rig, const SlamOptions& options, Map map)
-    : rig_(rig),
-      options_(options),
-      map_(std::move(map)),
-      index_(built_in_vocabulary()),
-      filter_(options.localization) {
+Localizer::Localizer(const StereoRig& rig, const SlamOptions& options, Map map, const Vocabulary& vocabulary)
+    : rig_(rig), options_(options), map_(std::move(map)), index_(vocabulary), filter_(options.localization) {
   if (map_.keyframes().empty())
     throw OptionError("localization.enabled: there is no map to localize in; give one (--load-map FILE)");
   for (const auto& [id, keyframe] : map_.keyframes())

@@ -18,7 +18,7 @@ namespace spslam {
 class Localizer {
  public:
   // Throws OptionError for a map without keyframes.
-  Localizer(const StereoRig& rig, const SlamOptions& options, Map map);
+  Localizer(const StereoRig& rig, const SlamOptions& options, Map map, const Vocabulary& vocabulary);
   ~Localizer() { stop(); }
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;

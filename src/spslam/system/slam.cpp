@@ -42,14 +42,15 @@ std::vector<TrajectoryPose> corrected_by(const Stages& stages) {
 
 }  // namespace
 
-Slam::Slam(const StereoRig& rig, const SlamOptions& options, Map map) : rig_(rig) {
+Slam::Slam(const StereoRig& rig, const SlamOptions& options, Map map, const Vocabulary& vocabulary)
+    : rig_(rig) {
   check_options(options);
   if (!options.localization.enabled) {
-    stages_ = std::make_unique<Stages>(rig, options, std::move(map));
+    stages_ = std::make_unique<Stages>(rig, options, std::move(map), vocabulary);
     return;
   }
-  localizer_ = std::make_unique<Localizer>(rig, options, std::move(map));
-  stages_ = std::make_unique<Stages>(rig, session_options(options), Map{});
+  localizer_ = std::make_unique<Localizer>(rig, options, std::move(map), vocabulary);
+  stages_ = std::make_unique<Stages>(rig, session_options(options), Map{}, vocabulary);
 }
 
 Slam::~Slam() = default;

@@ -55,7 +55,9 @@ class Slam {
   // load_map() gives it; then the first frame is looked for in it, and nothing is tracked until it is found.
   // With options.localization.enabled the map stays as it is: what track() says is where in it the camera is
   // (`lost` until that is known), and what odometry maps on the way is forgotten in the end.
-  Slam(const StereoRig& rig, const SlamOptions& options = {}, Map map = {});
+  // Places are recognized by the words of the vocabulary; maps do not depend on it.
+  Slam(const StereoRig& rig, const SlamOptions& options = {}, Map map = {},
+       const Vocabulary& vocabulary = built_in_vocabulary());
   ~Slam();
   Slam(const Slam&) = delete;
   Slam& operator=(const Slam&) = delete;

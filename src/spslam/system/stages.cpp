@@ -16,13 +16,12 @@ constexpr std::size_t kMayWait = 10;
 
 }  // namespace
 
-Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map)
+Stages::Stages(const StereoRig& rig, const SlamOptions& options, Map map, const Vocabulary& vocabulary)
     : rig_(rig),
       options_(options),
       tracker_(rig, options.tracker),
       mapper_(rig, options.tracker.orb, options.mapper, std::move(map)),
-      closer_(rig, options.loop.detection, options.loop.verification, options.loop.patches,
-              built_in_vocabulary()) {
+      closer_(rig, options.loop.detection, options.loop.verification, options.loop.patches, vocabulary) {
   const Map& known = mapper_.map();
   if (!known.keyframes().empty()) {
     tracker_.continue_map({known.keyframes().rbegin()->first.value + 1},

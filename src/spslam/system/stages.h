@@ -17,7 +17,7 @@ namespace spslam {
 
 class Stages {
  public:
-  Stages(const StereoRig& rig, const SlamOptions& options, Map map);
+  Stages(const StereoRig& rig, const SlamOptions& options, Map map, const Vocabulary& vocabulary);
   ~Stages() { stop(); }
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
