@@ -98,7 +98,9 @@ std::optional<Localizer::Answer> Localizer::look(const Request& request) const {
   // Where everything is far the place is recognized, if not the position to the decimetre.
   const std::optional<Relocalized>& found = attempt.found ? attempt.found : attempt.imprecise;
   if (!found) {
-    spdlog::debug("not recognized in the map: {}", describe_attempt(attempt));
+    // Who is lost wants to know why; who is not is only not corrected.
+    const auto level = request.expected ? spdlog::level::debug : spdlog::level::info;
+    spdlog::log(level, "not recognized in the map: {}", describe_attempt(attempt));
     return std::nullopt;
   }
   return Answer{request.index, {found->camera_from_world, found->covariance}, attempt.found.has_value()};
