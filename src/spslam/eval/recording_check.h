@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The SP-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+// Whether a recording and its calibration fit, judged from a sample of it: a finding a question, each with
+// its figures, a verdict and what to do. docs/RECORDINGS.md says what each means.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "spslam/eval/recording_sample.h"
+#include "spslam/stereo/pair_check.h"
+
+namespace spslam {
+
+enum class Judgement { kOk, kWarning, kBad };
+std::span<const char* const> option_names(Judgement);
+
+struct Finding {
+  std::string name;  // "rows"
+  Judgement judgement = Judgement::kOk;
+  std::string text = {};    // what was found, for people
+  std::string advice = {};  // what it means and what to do; empty if all is well
+  std::vector<std::pair<std::string, double>> values = {};  // for programs, named with their units
+};
+
+// When the right images were exposed, from how well their rows fit those of the left images before, of, and
+// after each pair: what moved between the two does not lie in the same rows.
+struct Instants {
+  int pairs = 0;          // with both neighbours
+  double spread[3] = {};  // px, RowOffsets::spread against the left image before, its own, and the next
+  bool is_told = false;   // the camera moves enough, and there are matches
+  double best = 0;        // frames, the minimum of the parabola through the squares: -1 is the one before
+};
+
+Instants measure_instants(std::span<const SampledPair> pairs, cv::Size image);
+
+// Do rows correspond? pair_scatter: px, how much the rows move from pair to pair.
+Finding judge_rows(const RowOffsets& rows, double pair_scatter);
+// Do points lie in front of the cameras, or are the eyes swapped?
+Finding judge_sign(const DisparityStatistics& disparities);
+
+// All of it: pairs, rows, sign, infinity, points, instants, times, images, calibration.
+std::vector<Finding> check_recording(const RecordingSample& sample);
+
+Judgement worst_judgement(std::span<const Finding> findings);
+
+}  // namespace spslam
