@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "spslam/cli/commands.h"
 #include "spslam/cli/reading_options.h"
@@ -24,14 +25,35 @@ const char* judgement_name(Judgement judgement) {
   return option_names(judgement)[static_cast<std::size_t>(judgement)];
 }
 
+constexpr std::size_t kIndent = 22, kWidth = 120;  // columns
+
+// Words in lines of kWidth columns, all but the first behind kIndent blanks.
+std::string wrapped(const std::string& text) {
+  std::string out;
+  std::size_t column = kIndent;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (column > kIndent && column + 1 + word.size() > kWidth) {
+      out += "\n" + std::string(kIndent, ' ');
+      column = kIndent;
+    } else if (column > kIndent) {
+      out += " ";
+      ++column;
+    }
+    out += word;
+    column += word.size();
+  }
+  return out + "\n";
+}
+
 std::string table_text(const Dataset& dataset, std::span<const Finding> findings) {
   std::string text = dataset.description() + "\n";
   for (const std::string& warning : dataset.warnings()) text += "warning: " + warning + "\n";
   for (const Finding& finding : findings) {
     char head[32];
     std::snprintf(head, sizeof head, "%-12s %-8s ", finding.name.c_str(), judgement_name(finding.judgement));
-    text += head + finding.text + "\n";
-    if (!finding.advice.empty()) text += std::string(22, ' ') + "-> " + finding.advice + "\n";
+    text += head + wrapped(finding.text);
+    if (!finding.advice.empty()) text += std::string(kIndent, ' ') + wrapped("-> " + finding.advice);
   }
   return text + "in all       " + judgement_name(worst_judgement(findings)) + "\n";
 }

@@ -52,8 +52,11 @@ void warn_of_pairs(const Dataset& dataset, int start) {
     ++used;
   }
   const RowOffsets rows = measure_rows(matches, {dataset.rig().width, dataset.rig().height});
-  warn_if_bad(judge_rows(rows, 0));
-  warn_if_bad(judge_sign(measure_disparities(on_rows(matches, rows))));
+  const Finding row_finding = judge_rows(rows, 0);
+  warn_if_bad(row_finding);
+  // Of eyes that are not of one instant, disparities say nothing.
+  if (row_finding.judgement != Judgement::kBad)
+    warn_if_bad(judge_sign(measure_disparities(on_rows(matches, rows))));
 }
 
 }  // namespace spslam

@@ -17,7 +17,8 @@ namespace {
 constexpr int kFewMatches = 60;  // of all pairs: fewer do not tell anything about the rig
 constexpr int kFewCorners = 60;  // of a pair
 constexpr double kRowsFine = 0.3, kRowsCornerFine = 0.5, kRowsBad = 1;  // px
-constexpr double kPairScatterFine = 0.3;                                // px
+constexpr double kRowsScatterFine = 0.5;                                // px
+constexpr double kFewMeasured = 30;    // corners of a pair, of some 300 matched, that have a depth at all
 constexpr double kSpreadNoise = 0.05;  // px, by which spreads of rows differ for no reason
 constexpr double kDelayFine = 0.25;    // frames
 
@@ -35,19 +36,23 @@ double share_of(std::span<const SampledPair> pairs, Condition condition) {
   return pairs.empty() ? 0 : static_cast<double>(count) / static_cast<double>(pairs.size());
 }
 
+constexpr std::vector<PairMatch> SampledPair::*kMatchesWith[] = {&SampledPair::before, &SampledPair::matches,
+                                                                 &SampledPair::after};
+
 std::vector<PairMatch> all_matches(std::span<const SampledPair> pairs,
-                                   std::vector<PairMatch> SampledPair::*which = &SampledPair::matches) {
+                                   std::vector<PairMatch> SampledPair::*which) {
   std::vector<PairMatch> all;
   for (const SampledPair& pair : pairs) all.insert(all.end(), (pair.*which).begin(), (pair.*which).end());
   return all;
 }
 
 // How much the rows of single pairs lie off the plane of all: 1.4826 times the median deviation.
-double scatter_of_pairs(std::span<const SampledPair> pairs, const RowOffsets& rows) {
+double scatter_of_pairs(std::span<const SampledPair> pairs, std::vector<PairMatch> SampledPair::*which,
+                        const RowOffsets& rows) {
   std::vector<double> deviations;
   for (const SampledPair& pair : pairs) {
     std::vector<double> offsets;
-    for (const PairMatch& m : pair.matches) offsets.push_back(m.row_offset - rows.at(m.x, m.y));
+    for (const PairMatch& m : pair.*which) offsets.push_back(m.row_offset - rows.at(m.x, m.y));
     if (offsets.size() >= 20) deviations.push_back(std::abs(median(std::move(offsets))));
   }
   return 1.4826 * median(std::move(deviations));
@@ -98,36 +103,34 @@ Finding judge_infinity(const DisparityStatistics& disparities) {
   const bool is_bad = disparities.quantile_5 < -2 * kClearDisparity;
   finding.judgement = is_bad ? Judgement::kBad : Judgement::kWarning;
   finding.advice = fmt::format(
-      "nothing is farther than infinity, which has disparity 0: unless the eyes are swapped, the calibration "
+      "nothing is farther than infinity, which has disparity 0: the calibration "
       "takes off too much; calibrate anew. A run finds out up to {:.0f} px itself (tracker.rig.max_offset)",
       RigOptions{}.max_offset);
   return finding;
 }
 
 // What of the image has a depth, and a good one.
-Finding judge_disparities(const RecordingSample& sample, const DisparityStatistics& disparities) {
-  const double product = sample.rig.disparity_per_inverse_depth();
-  const double near = (1 - disparities.below_3) *
-                      median_of(sample.pairs, [](const auto& pair) { return pair.matches.size(); });
+Finding judge_disparities(const StereoRig& rig, const DisparityStatistics& disparities, std::size_t pairs) {
+  const double product = rig.disparity_per_inverse_depth();
+  const double measured = (1 - disparities.below_1) * disparities.matches / static_cast<double>(pairs);
   Finding finding{.name = "disparities"};
-  finding.values = {{"median_px", disparities.median},
-                    {"quantile_95_px", disparities.quantile_95},
-                    {"share_below_1_px", disparities.below_1},
-                    {"share_below_3_px", disparities.below_3},
-                    {"near_per_pair", near},
+  finding.values = {{"median_px", disparities.median},         {"quantile_95_px", disparities.quantile_95},
+                    {"share_below_1_px", disparities.below_1}, {"share_below_3_px", disparities.below_3},
+                    {"above_1_px_per_pair", measured},         {"depth_at_1_px_m", product},
                     {"depth_at_3_px_m", product / 3}};
   finding.text = fmt::format(
-      "median {:.1f} px, 95 % below {:.1f} px; {:.0f} % below 1 px (beyond {:.1f} m), {:.0f} % below 3 px "
-      "(beyond {:.1f} m)",
+      "median {:.1f} px, 95 % below {:.1f} px; {:.0f} % below 1 px (beyond {:.1f} m, where 0.1 px is 10 % of "
+      "the distance), {:.0f} % "
+      "below 3 px (beyond {:.1f} m, 3 %)",
       disparities.median, disparities.quantile_95, 100 * disparities.below_1, product,
       100 * disparities.below_3, product / 3);
-  if (near >= StateOptions{}.min_inliers) return finding;
+  if (measured >= kFewMeasured) return finding;
   finding.judgement = Judgement::kWarning;
   finding.advice = fmt::format(
-      "only about {:.0f} corners of a pair are nearer than {:.1f} m: 0.1 px is 3 % of the distance there and "
-      "10 % at "
-      "{:.1f} m, so the scale of the motion will be uncertain; go closer to the shore, or widen the baseline",
-      near, product / 3, product);
+      "only about {:.0f} of the corners matched in a pair are nearer than {:.1f} m: the scale of the motion "
+      "will be uncertain; go "
+      "closer to the shore, or widen the baseline",
+      measured, product);
   return finding;
 }
 
@@ -137,29 +140,29 @@ Finding judge_instants(const Instants& instants, double interval) {
                     {"spread_own_px", instants.spread[1]},
                     {"spread_after_px", instants.spread[2]},
                     {"told", instants.is_told},
-                    {"delay_frames", instants.best}};
+                    {"delay_frames", instants.delay}};
   if (!instants.is_told) {
     finding.text = "cannot be told: the camera hardly moves between the frames, or there are too few matches";
     return finding;
   }
   finding.text = fmt::format(
-      "rows of right images scatter by {:.2f} px against their left ones, by {:.2f} and {:.2f} px "
-      "against those before and after",
+      "rows of right images scatter by {:.2f} px against their left ones, by {:.2f} and {:.2f} px against "
+      "those before and after",
       instants.spread[1], instants.spread[0], instants.spread[2]);
-  const int fits = instants.spread[0] < instants.spread[2] ? 0 : 2;
-  if (instants.spread[1] > 1.3 * instants.spread[fits] + kSpreadNoise) {
+  if (instants.fitting != 0) {
     finding.judgement = Judgement::kBad;
     finding.advice = fmt::format(
         "right images show the instant of the left image {} theirs: one eye is shifted by a frame; name or "
-        "number the images so that those of one instant belong together",
-        fits == 0 ? "before" : "after");
-  } else if (std::abs(instants.best) > kDelayFine) {
+        "number the images so that "
+        "those of one instant belong together. What else is said of pairs is of those that fit",
+        instants.fitting < 0 ? "before" : "after");
+  } else if (std::abs(instants.delay) > kDelayFine) {
     finding.judgement = Judgement::kWarning;
     finding.advice = fmt::format(
         "right images seem to be exposed {:.2f} frames ({:.0f} ms) {} the left ones; trigger both eyes "
         "together",
-        std::abs(instants.best), 1000 * std::abs(instants.best) * interval,
-        instants.best < 0 ? "before" : "after");
+        std::abs(instants.delay), 1000 * std::abs(instants.delay) * interval,
+        instants.delay < 0 ? "before" : "after");
   }
   return finding;
 }
@@ -176,7 +179,7 @@ Finding judge_times(const TimeSteps& steps) {
     return finding;
   }
   finding.text = fmt::format(
-      "{:.4g} s between frames ({:.1f} Hz), jitter {:.1f} ms, longest {:.3g} s; {} gaps, {} too short",
+      "{:.4g} s between frames ({:.1f} Hz), jitter {:.1f} ms, longest {:.3g} s; gaps: {}, too short: {}",
       steps.median, 1 / steps.median, 1000 * steps.jitter, steps.longest, steps.gaps, steps.short_ones);
   if (steps.gaps + steps.short_ones > 0)
     finding.advice = "frames are missing or their times are not those of the exposures";
@@ -271,19 +274,23 @@ Instants measure_instants(std::span<const SampledPair> pairs, cv::Size image) {
   std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(told),
                [](const SampledPair& pair) { return pair.has_neighbours; });
   instants.pairs = static_cast<int>(told.size());
-  int fewest = told.empty() ? 0 : kFewMatches;
-  const auto which = {&SampledPair::before, &SampledPair::matches, &SampledPair::after};
-  for (std::size_t k = 0; k < which.size(); ++k) {
-    const RowOffsets rows = measure_rows(all_matches(told, which.begin()[k]), image);
+  int fewest = kFewMatches;
+  for (int k = 0; k < 3; ++k) {
+    const RowOffsets rows = measure_rows(all_matches(told, kMatchesWith[k]), image);
     instants.spread[k] = rows.spread;
     fewest = std::min(fewest, rows.matches);
   }
-  const auto [least, most] = std::minmax_element(std::begin(instants.spread), std::end(instants.spread));
-  instants.is_told = fewest >= kFewMatches && *most > 1.5 * *least + kSpreadNoise;
-  const auto square = [&](int k) { return instants.spread[k] * instants.spread[k]; };
-  const double bend = square(0) + square(2) - 2 * square(1);
-  if (instants.is_told && bend > 0)
-    instants.best = std::clamp((square(0) - square(2)) / (2 * bend), -1.0, 1.0);
+  const auto& [before, own, after] = instants.spread;
+  const double least = std::min({before, own, after}), most = std::max({before, own, after});
+  instants.is_told = fewest >= kFewMatches && most > 1.5 * least + kSpreadNoise;
+  if (!instants.is_told) return instants;
+  if (own > 1.3 * std::min(before, after) + kSpreadNoise) instants.fitting = before < after ? -1 : 1;
+  // own^2 = floor^2 + (delay * rate)^2, and the same with delay + 1 and delay - 1: the rate of the rows, px a
+  // frame, and the delay, which cannot be more than what leaves nothing for the floor.
+  const double rate_squared = 0.5 * (before * before + after * after) - own * own;
+  if (rate_squared <= 0) return instants;
+  const double limit = std::min(1.0, own / std::sqrt(rate_squared));
+  instants.delay = std::clamp((before * before - after * after) / (4 * rate_squared), -limit, limit);
   return instants;
 }
 
@@ -299,32 +306,36 @@ Finding judge_rows(const RowOffsets& rows, double pair_scatter) {
                     {"worst_corner_sigma_px", rows.corner_sigma},
                     {"pair_scatter_px", pair_scatter}};
   finding.text = fmt::format(
-      "right ones lie {:+.2f} px lower (median; spread {:.2f} px), at the worst corner {:+.2f} px; roll "
-      "{:+.2f} degrees, "
-      "{:+.2f} px from top to bottom; from pair to pair {:.2f} px",
-      rows.median, rows.spread, rows.worst_corner, rows.slope_x * 180 / M_PI,
-      2 * rows.slope_y * rows.middle.y, pair_scatter);
+      "those of right images lie {:.2f} px {} (median; spread {:.2f} px), at the worst corner {:.2f} px {}; "
+      "roll {:+.2f} degrees, "
+      "{:+.2f} px from top to bottom, {:.2f} px from pair to pair",
+      std::abs(rows.median), rows.median < 0 ? "higher" : "lower", rows.spread, std::abs(rows.worst_corner),
+      rows.worst_corner < 0 ? "higher" : "lower", rows.slope_x * 180 / M_PI, 2 * rows.slope_y * rows.middle.y,
+      pair_scatter);
   if (rows.matches < kFewMatches) return finding;
   // As far as it is known: few matches in one part of the image say little about its corners.
   const double corner = std::max(0.0, std::abs(rows.worst_corner) - 2 * rows.corner_sigma);
-  const double tolerated = FollowOptions{}.max_row_offset;
-  if (std::abs(rows.median) > kRowsBad || corner > tolerated) {
-    finding.judgement = Judgement::kBad;
-    finding.advice = fmt::format(
-        "rows do not correspond; tracking leaves out points beyond {:.1f} px (tracker.follow.max_row_offset) "
-        "and disparities "
-        "of slanted edges are wrong before that: calibrate anew, or give the raw images with their raw "
-        "calibration",
-        tolerated);
-  } else if (std::abs(rows.median) > kRowsFine || corner > kRowsCornerFine) {
-    finding.judgement = Judgement::kWarning;
-    finding.advice = fmt::format(
-        "the rectification is a little off; tracking takes up to {:.1f} px (tracker.follow.max_row_offset)",
-        tolerated);
-  } else if (pair_scatter > kPairScatterFine) {
-    finding.judgement = Judgement::kWarning;
-    finding.advice = "rows move from pair to pair: the eyes are not exposed together, or a camera is loose";
-  }
+  const std::string tolerated =
+      fmt::format("tracking leaves out points beyond {:.1f} px (tracker.follow.max_row_offset)",
+                  FollowOptions{}.max_row_offset);
+  const auto say = [&](Judgement judgement, const std::string& advice) {
+    finding.judgement = judgement;
+    finding.advice = advice;
+  };
+  if (std::abs(rows.median) > kRowsBad || corner > FollowOptions{}.max_row_offset)
+    say(Judgement::kBad, "rows do not correspond, and " + tolerated +
+                             ": calibrate anew, or give the raw images with their raw calibration");
+  else if (rows.spread > kRowsBad)
+    say(Judgement::kBad,
+        "rows do not correspond, and not in one way: the images are not undistorted, or the eyes are not of "
+        "one instant; " +
+            tolerated);
+  else if (std::abs(rows.median) > kRowsFine || corner > kRowsCornerFine)
+    say(Judgement::kWarning, "the rectification is a little off; " + tolerated);
+  else if (std::max(rows.spread, pair_scatter) > kRowsScatterFine)
+    say(Judgement::kWarning,
+        "rows scatter: the images are not undistorted well, the eyes are not exposed together, or a camera "
+        "is loose");
   return finding;
 }
 
@@ -336,7 +347,9 @@ Finding judge_sign(const DisparityStatistics& disparities) {
   if (disparities.matches < kFewMatches) return finding;
   if (seem_swapped(disparities)) {
     finding.judgement = Judgement::kBad;
-    finding.advice = "left and right seem to be swapped: exchange the two folders (or cameras)";
+    finding.advice =
+        "left and right seem to be swapped: exchange the two folders (or cameras). What else is said of "
+        "disparities is of those exchanged";
   } else if (disparities.negative > 0.05) {
     finding.judgement = Judgement::kWarning;
     finding.advice =
@@ -347,18 +360,27 @@ Finding judge_sign(const DisparityStatistics& disparities) {
 }
 
 std::vector<Finding> check_recording(const RecordingSample& sample) {
-  const cv::Size image(sample.rig.width, sample.rig.height);
-  const std::vector<PairMatch> matches = all_matches(sample.pairs);
-  const RowOffsets rows = measure_rows(matches, image);
-  const DisparityStatistics disparities = measure_disparities(on_rows(matches, rows));
   const TimeSteps steps = measure_times(sample.times);
   std::vector<Finding> findings = {judge_pairs(sample)};
-  if (!sample.pairs.empty())
-    for (Finding& finding : std::vector<Finding>{
-             judge_matches(sample, rows), judge_rows(rows, scatter_of_pairs(sample.pairs, rows)),
-             judge_sign(disparities), judge_infinity(disparities), judge_disparities(sample, disparities),
-             judge_instants(measure_instants(sample.pairs, image), steps.median), judge_images(sample.pairs)})
-      findings.push_back(std::move(finding));
+  if (!sample.pairs.empty()) {
+    const cv::Size image(sample.rig.width, sample.rig.height);
+    const Instants instants = measure_instants(sample.pairs, image);
+    // One fault, one finding: what is wrong with the pairing, and then with the sides, is put right for what
+    // is asked next.
+    const auto fitting = kMatchesWith[1 + instants.fitting];
+    const std::vector<PairMatch> matches = all_matches(sample.pairs, fitting);
+    const RowOffsets rows = measure_rows(matches, image);
+    std::vector<PairMatch> kept = on_rows(matches, rows);
+    const DisparityStatistics found = measure_disparities(kept);
+    if (seem_swapped(found))
+      for (PairMatch& match : kept) match.disparity = -match.disparity;
+    const DisparityStatistics disparities = measure_disparities(kept);
+    findings.insert(findings.end(), {judge_matches(sample, rows), judge_instants(instants, steps.median),
+                                     judge_rows(rows, scatter_of_pairs(sample.pairs, fitting, rows)),
+                                     judge_sign(found), judge_infinity(disparities),
+                                     judge_disparities(sample.rig, disparities, sample.pairs.size()),
+                                     judge_images(sample.pairs)});
+  }
   findings.push_back(judge_times(steps));
   findings.push_back(judge_calibration(sample.rig));
   return findings;

@@ -31,7 +31,8 @@ struct Instants {
   int pairs = 0;          // with both neighbours
   double spread[3] = {};  // px, RowOffsets::spread against the left image before, its own, and the next
   bool is_told = false;   // the camera moves enough, and there are matches
-  double best = 0;        // frames, the minimum of the parabola through the squares: -1 is the one before
+  int fitting = 0;        // frames: which left image fits, -1 for the one before
+  double delay = 0;       // frames from the left exposure to the right one, as far as spreads tell
 };
 
 Instants measure_instants(std::span<const SampledPair> pairs, cv::Size image);
@@ -41,7 +42,7 @@ Finding judge_rows(const RowOffsets& rows, double pair_scatter);
 // Do points lie in front of the cameras, or are the eyes swapped?
 Finding judge_sign(const DisparityStatistics& disparities);
 
-// All of it: pairs, rows, sign, infinity, points, instants, times, images, calibration.
+// All of it: pairs, matches, instants, rows, sign, infinity, disparities, images, times, calibration.
 std::vector<Finding> check_recording(const RecordingSample& sample);
 
 Judgement worst_judgement(std::span<const Finding> findings);
