@@ -62,10 +62,10 @@ std::string json_text(const Dataset& dataset, std::span<const Finding> findings)
   nlohmann::ordered_json out;
   out["dataset"] = dataset.description();
   out["warnings"] = dataset.warnings();
-  out["verdict"] = judgement_name(worst_judgement(findings));
+  out["judgement"] = judgement_name(worst_judgement(findings));
   for (const Finding& finding : findings) {
     nlohmann::ordered_json& check = out["checks"][finding.name];
-    check["verdict"] = judgement_name(finding.judgement);
+    check["judgement"] = judgement_name(finding.judgement);
     check["found"] = finding.text;
     check["advice"] = finding.advice;
     for (const auto& [name, value] : finding.values) check["values"][name] = value;

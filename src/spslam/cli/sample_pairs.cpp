@@ -5,6 +5,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <cmath>
+
 #include "spslam/eval/recording_check.h"
 
 namespace spslam {
@@ -14,9 +16,8 @@ StereoFrame load_if_any(const Dataset& dataset, int index) {
   return index < 0 || index >= dataset.size() ? StereoFrame() : dataset.load(index);
 }
 
-void warn_if_bad(const Finding& finding) {
-  if (finding.judgement == Judgement::kBad)
-    spdlog::warn("the first pairs: {}; {} (`spslam check` tells more)", finding.text, finding.advice);
+void warn(const std::string& found, const Finding& finding) {
+  spdlog::warn("the first pairs: {}; {} (`spslam check` tells more)", found, finding.advice);
 }
 
 }  // namespace
@@ -52,11 +53,16 @@ void warn_of_pairs(const Dataset& dataset, int start) {
     ++used;
   }
   const RowOffsets rows = measure_rows(matches, {dataset.rig().width, dataset.rig().height});
-  const Finding row_finding = judge_rows(rows, 0);
-  warn_if_bad(row_finding);
+  const DisparityStatistics disparities = measure_disparities(on_rows(matches, rows));
+  const Finding row_finding = judge_rows(rows, 0), sign = judge_sign(disparities);
   // Of eyes that are not of one instant, disparities say nothing.
-  if (row_finding.judgement != Judgement::kBad)
-    warn_if_bad(judge_sign(measure_disparities(on_rows(matches, rows))));
+  if (row_finding.judgement == Judgement::kBad)
+    warn(
+        fmt::format("rows of right images are {:.1f} px off, {:.1f} px in a corner, and scatter by {:.1f} px",
+                    std::abs(rows.median), std::abs(rows.worst_corner), rows.spread),
+        row_finding);
+  else if (sign.judgement == Judgement::kBad)
+    warn(fmt::format("{:.0f} % of the disparities are negative", 100 * disparities.negative), sign);
 }
 
 }  // namespace spslam

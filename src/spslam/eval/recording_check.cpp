@@ -18,9 +18,8 @@ constexpr int kFewMatches = 60;  // of all pairs: fewer do not tell anything abo
 constexpr int kFewCorners = 60;  // of a pair
 constexpr double kRowsFine = 0.3, kRowsCornerFine = 0.5, kRowsBad = 1;  // px
 constexpr double kRowsScatterFine = 0.5;                                // px
-constexpr double kFewMeasured = 30;    // corners of a pair, of some 300 matched, that have a depth at all
-constexpr double kSpreadNoise = 0.05;  // px, by which spreads of rows differ for no reason
-constexpr double kDelayFine = 0.25;    // frames
+constexpr double kFewMeasured = 30;  // corners of a pair, of some 300 matched, that have a depth at all
+constexpr double kDelayFine = 0.05;  // frames
 
 // The middle of one figure of all pairs.
 template <class Figure>
@@ -36,23 +35,12 @@ double share_of(std::span<const SampledPair> pairs, Condition condition) {
   return pairs.empty() ? 0 : static_cast<double>(count) / static_cast<double>(pairs.size());
 }
 
-constexpr std::vector<PairMatch> SampledPair::*kMatchesWith[] = {&SampledPair::before, &SampledPair::matches,
-                                                                 &SampledPair::after};
-
-std::vector<PairMatch> all_matches(std::span<const SampledPair> pairs,
-                                   std::vector<PairMatch> SampledPair::*which) {
-  std::vector<PairMatch> all;
-  for (const SampledPair& pair : pairs) all.insert(all.end(), (pair.*which).begin(), (pair.*which).end());
-  return all;
-}
-
 // How much the rows of single pairs lie off the plane of all: 1.4826 times the median deviation.
-double scatter_of_pairs(std::span<const SampledPair> pairs, std::vector<PairMatch> SampledPair::*which,
-                        const RowOffsets& rows) {
+double scatter_of_pairs(std::span<const SampledPair> pairs, int frames, const RowOffsets& rows) {
   std::vector<double> deviations;
   for (const SampledPair& pair : pairs) {
     std::vector<double> offsets;
-    for (const PairMatch& m : pair.*which) offsets.push_back(m.row_offset - rows.at(m.x, m.y));
+    for (const PairMatch& m : matches_with(pair, frames)) offsets.push_back(m.row_offset - rows.at(m.x, m.y));
     if (offsets.size() >= 20) deviations.push_back(std::abs(median(std::move(offsets))));
   }
   return 1.4826 * median(std::move(deviations));
@@ -136,11 +124,9 @@ Finding judge_disparities(const StereoRig& rig, const DisparityStatistics& dispa
 
 Finding judge_instants(const Instants& instants, double interval) {
   Finding finding{.name = "instants"};
-  finding.values = {{"spread_before_px", instants.spread[0]},
-                    {"spread_own_px", instants.spread[1]},
-                    {"spread_after_px", instants.spread[2]},
-                    {"told", instants.is_told},
-                    {"delay_frames", instants.delay}};
+  finding.values = {{"spread_before_px", instants.spread[0]}, {"spread_own_px", instants.spread[1]},
+                    {"spread_after_px", instants.spread[2]},  {"told", instants.is_told},
+                    {"delay_frames", instants.delay},         {"delay_sigma_frames", instants.delay_sigma}};
   if (!instants.is_told) {
     finding.text = "cannot be told: the camera hardly moves between the frames, or there are too few matches";
     return finding;
@@ -149,6 +135,9 @@ Finding judge_instants(const Instants& instants, double interval) {
       "rows of right images scatter by {:.2f} px against their left ones, by {:.2f} and {:.2f} px against "
       "those before and after",
       instants.spread[1], instants.spread[0], instants.spread[2]);
+  if (instants.delay_sigma > 0)
+    finding.text +=
+        fmt::format("; delay {:+.2f} frames, known to {:.2f}", instants.delay, instants.delay_sigma);
   if (instants.fitting != 0) {
     finding.judgement = Judgement::kBad;
     finding.advice = fmt::format(
@@ -156,7 +145,7 @@ Finding judge_instants(const Instants& instants, double interval) {
         "number the images so that "
         "those of one instant belong together. What else is said of pairs is of those that fit",
         instants.fitting < 0 ? "before" : "after");
-  } else if (std::abs(instants.delay) > kDelayFine) {
+  } else if (std::abs(instants.delay) > kDelayFine + 3 * instants.delay_sigma) {
     finding.judgement = Judgement::kWarning;
     finding.advice = fmt::format(
         "right images seem to be exposed {:.2f} frames ({:.0f} ms) {} the left ones; trigger both eyes "
@@ -268,32 +257,6 @@ std::span<const char* const> option_names(Judgement) {
   return names;
 }
 
-Instants measure_instants(std::span<const SampledPair> pairs, cv::Size image) {
-  Instants instants;
-  std::vector<SampledPair> told;
-  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(told),
-               [](const SampledPair& pair) { return pair.has_neighbours; });
-  instants.pairs = static_cast<int>(told.size());
-  int fewest = kFewMatches;
-  for (int k = 0; k < 3; ++k) {
-    const RowOffsets rows = measure_rows(all_matches(told, kMatchesWith[k]), image);
-    instants.spread[k] = rows.spread;
-    fewest = std::min(fewest, rows.matches);
-  }
-  const auto& [before, own, after] = instants.spread;
-  const double least = std::min({before, own, after}), most = std::max({before, own, after});
-  instants.is_told = fewest >= kFewMatches && most > 1.5 * least + kSpreadNoise;
-  if (!instants.is_told) return instants;
-  if (own > 1.3 * std::min(before, after) + kSpreadNoise) instants.fitting = before < after ? -1 : 1;
-  // own^2 = floor^2 + (delay * rate)^2, and the same with delay + 1 and delay - 1: the rate of the rows, px a
-  // frame, and the delay, which cannot be more than what leaves nothing for the floor.
-  const double rate_squared = 0.5 * (before * before + after * after) - own * own;
-  if (rate_squared <= 0) return instants;
-  const double limit = std::min(1.0, own / std::sqrt(rate_squared));
-  instants.delay = std::clamp((before * before - after * after) / (4 * rate_squared), -limit, limit);
-  return instants;
-}
-
 Finding judge_rows(const RowOffsets& rows, double pair_scatter) {
   Finding finding{.name = "rows"};
   finding.values = {{"matches", rows.matches},
@@ -367,17 +330,18 @@ std::vector<Finding> check_recording(const RecordingSample& sample) {
     const Instants instants = measure_instants(sample.pairs, image);
     // One fault, one finding: what is wrong with the pairing, and then with the sides, is put right for what
     // is asked next.
-    const auto fitting = kMatchesWith[1 + instants.fitting];
-    const std::vector<PairMatch> matches = all_matches(sample.pairs, fitting);
+    const std::vector<PairMatch> matches = all_matches(sample.pairs, instants.fitting);
     const RowOffsets rows = measure_rows(matches, image);
     std::vector<PairMatch> kept = on_rows(matches, rows);
-    const DisparityStatistics found = measure_disparities(kept);
-    if (seem_swapped(found))
+    Finding sign = judge_sign(measure_disparities(kept));
+    if (sign.judgement == Judgement::kBad) {
       for (PairMatch& match : kept) match.disparity = -match.disparity;
+      sign.advice += ". What else is said of disparities is of those exchanged";
+    }
     const DisparityStatistics disparities = measure_disparities(kept);
     findings.insert(findings.end(), {judge_matches(sample, rows), judge_instants(instants, steps.median),
-                                     judge_rows(rows, scatter_of_pairs(sample.pairs, fitting, rows)),
-                                     judge_sign(found), judge_infinity(disparities),
+                                     judge_rows(rows, scatter_of_pairs(sample.pairs, instants.fitting, rows)),
+                                     sign, judge_infinity(disparities),
                                      judge_disparities(sample.rig, disparities, sample.pairs.size()),
                                      judge_images(sample.pairs)});
   }

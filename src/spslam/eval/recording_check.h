@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
 // Whether a recording and its calibration fit, judged from a sample of it: a finding a question, each with
-// its figures, a verdict and what to do. docs/RECORDINGS.md says what each means.
+// its figures, a judgement and what to do. docs/RECORDINGS.md says what each means.
 #pragma once
 
 #include <span>
@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "spslam/eval/instants.h"
 #include "spslam/eval/recording_sample.h"
 #include "spslam/stereo/pair_check.h"
 
@@ -24,18 +25,6 @@ struct Finding {
   std::string advice = {};  // what it means and what to do; empty if all is well
   std::vector<std::pair<std::string, double>> values = {};  // for programs, named with their units
 };
-
-// When the right images were exposed, from how well their rows fit those of the left images before, of, and
-// after each pair: what moved between the two does not lie in the same rows.
-struct Instants {
-  int pairs = 0;          // with both neighbours
-  double spread[3] = {};  // px, RowOffsets::spread against the left image before, its own, and the next
-  bool is_told = false;   // the camera moves enough, and there are matches
-  int fitting = 0;        // frames: which left image fits, -1 for the one before
-  double delay = 0;       // frames from the left exposure to the right one, as far as spreads tell
-};
-
-Instants measure_instants(std::span<const SampledPair> pairs, cv::Size image);
 
 // Do rows correspond? pair_scatter: px, how much the rows move from pair to pair.
 Finding judge_rows(const RowOffsets& rows, double pair_scatter);

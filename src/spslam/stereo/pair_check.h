@@ -23,7 +23,7 @@ struct RowOffsets {
   double slope_y = 0;       // px per px
   double worst_corner = 0;  // px, the plane at the corner of the image where it is farthest from 0
   double corner_sigma = 0;  // px, how well that is known
-  cv::Point2d middle;       // px, what the slopes are counted from
+  cv::Point2d middle = {};  // px, what the slopes are counted from
 
   double at(double x, double y) const { return centre + slope_x * (x - middle.x) + slope_y * (y - middle.y); }
 };
