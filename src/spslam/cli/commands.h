@@ -15,6 +15,7 @@ using Command = std::function<int()>;
 
 // Each adds its subcommand with its options to app; the subcommand's callback only puts its work into
 // `chosen`.
+void add_check(CLI::App& app, Command& chosen);
 void add_config(CLI::App& app, Command& chosen);
 void add_evaluate(CLI::App& app, Command& chosen);
 void add_export_map(CLI::App& app, Command& chosen);

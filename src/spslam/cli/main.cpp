@@ -37,6 +37,7 @@ int fail(const char* message, int exit_code) {
 
 void add_commands(CLI::App& app, Command& chosen) {
   add_run(app, chosen);
+  add_check(app, chosen);
   add_config(app, chosen);
   add_evaluate(app, chosen);
   add_report(app, chosen);

@@ -16,6 +16,7 @@
 #include "spslam/cli/run_samples.h"
 #include "spslam/cli/run_signal.h"
 #include "spslam/cli/run_summary.h"
+#include "spslam/cli/sample_pairs.h"
 
 namespace spslam {
 namespace {
@@ -58,6 +59,7 @@ int run_dataset(const RunArguments& arguments) {
   folder.write("config.yaml", config_text(origin, options));
   spdlog::info("{}", dataset->description());
   log_warnings(*dataset);
+  warn_of_pairs(*dataset, arguments.start);
   watch_for_interruption();
   Checkpoint checkpoint(arguments.checkpoint, folder.path() / "trajectory_tum.txt", arguments.save_map);
   const std::exception_ptr failure = track_frames(arguments, *dataset, frames, slam, checkpoint, record);
