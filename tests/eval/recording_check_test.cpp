@@ -156,7 +156,19 @@ TEST(RecordingCheck, TheSameImageForBothEyes) {
   sample.rig = test::scene_rig();
   sample.pairs.push_back(measure_pair(matcher, {0, pair.left, pair.left, ""}));
   EXPECT_FALSE(sample.pairs[0].has_neighbours);
-  EXPECT_THAT(find(check_recording(sample), "matches").advice, HasSubstr("the same images"));
+  const std::vector<Finding> findings = check_recording(sample);
+  EXPECT_THAT(find(findings, "matches").advice, HasSubstr("the same images"));
+  EXPECT_EQ(findings.size(), 5U) << "nothing of rows and disparities";
+}
+
+TEST(RecordingCheck, EyesOfTwoScenes) {
+  StereoFrame pair = pair_at(0, 0);
+  cv::flip(pair.right, pair.right, -1);
+  PairMatcher matcher;
+  RecordingSample sample;
+  sample.rig = test::scene_rig();
+  sample.pairs.push_back(measure_pair(matcher, pair));
+  EXPECT_EQ(find(check_recording(sample), "matches").judgement, Judgement::kBad);
 }
 
 TEST(RecordingCheck, CalibrationOfAnotherSize) {

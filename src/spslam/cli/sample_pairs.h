@@ -12,7 +12,7 @@ namespace spslam {
 RecordingSample sample_recording(const Dataset& dataset, int count);
 
 // What `spslam run` asks by itself: logs a warning if the first usable pairs from `start` on have rows more
-// than 1 px off or seem to be swapped. Takes about a tenth of a second.
+// than 1 px off or seem to be swapped. Takes less than a tenth of a second.
 void warn_of_pairs(const Dataset& dataset, int start);
 
 }  // namespace spslam

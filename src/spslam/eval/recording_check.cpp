@@ -14,8 +14,8 @@
 namespace spslam {
 namespace {
 
-constexpr int kFewMatches = 60;  // of all pairs: fewer do not tell anything about the rig
-constexpr int kFewCorners = 60;  // of a pair
+constexpr std::size_t kFewMatches = 60;  // of all pairs: fewer do not tell anything about the rig
+constexpr int kFewCorners = 60;          // of a pair
 constexpr double kRowsFine = 0.3, kRowsCornerFine = 0.5, kRowsBad = 1;  // px
 constexpr double kRowsScatterFine = 0.5;                                // px
 constexpr double kFewMeasured = 30;  // corners of a pair, of some 300 matched, that have a depth at all
@@ -58,7 +58,7 @@ Finding judge_pairs(const RecordingSample& sample) {
 }
 
 // Pairs that do not show one scene: nothing else need be asked then.
-Finding judge_matches(const RecordingSample& sample, const RowOffsets& rows) {
+Finding judge_matches(const RecordingSample& sample, std::size_t matches) {
   const double corners = median_of(sample.pairs, [](const auto& pair) { return pair.corners; });
   const double matched = median_of(sample.pairs, [](const auto& pair) { return pair.matches.size(); });
   Finding finding{.name = "matches"};
@@ -71,8 +71,9 @@ Finding judge_matches(const RecordingSample& sample, const RowOffsets& rows) {
   } else if (corners < kFewCorners) {
     finding.judgement = Judgement::kWarning;
     finding.advice =
-        "there is hardly any texture (fog, darkness, blur, or water only): what follows tells little";
-  } else if (rows.matches < kFewMatches || matched < 0.03 * corners) {
+        "there is hardly any texture (fog, darkness, blur, or water only): little or nothing can be told of "
+        "the rig";
+  } else if (matches < kFewMatches || matched < 0.03 * corners) {
     finding.judgement = Judgement::kBad;
     finding.advice =
         "left and right hardly show the same: are they of one rig and one instant, both upright, not "
@@ -87,7 +88,8 @@ Finding judge_infinity(const DisparityStatistics& disparities) {
   finding.values = {{"quantile_1_px", disparities.quantile_1}, {"quantile_5_px", disparities.quantile_5}};
   finding.text = fmt::format("1 % of the disparities are below {:.2f} px, 5 % below {:.2f} px",
                              disparities.quantile_1, disparities.quantile_5);
-  if (disparities.matches < kFewMatches || disparities.quantile_1 >= -kClearDisparity) return finding;
+  if (disparities.matches < static_cast<int>(kFewMatches) || disparities.quantile_1 >= -kClearDisparity)
+    return finding;
   const bool is_bad = disparities.quantile_5 < -2 * kClearDisparity;
   finding.judgement = is_bad ? Judgement::kBad : Judgement::kWarning;
   finding.advice = fmt::format(
@@ -140,11 +142,12 @@ Finding judge_instants(const Instants& instants, double interval) {
         fmt::format("; delay {:+.2f} frames, known to {:.2f}", instants.delay, instants.delay_sigma);
   if (instants.fitting != 0) {
     finding.judgement = Judgement::kBad;
+    const bool is_one = instants.spread[1 + instants.fitting] < kRowsBad;
     finding.advice = fmt::format(
-        "right images show the instant of the left image {} theirs: one eye is shifted by a frame; name or "
-        "number the images so that "
-        "those of one instant belong together. What else is said of pairs is of those that fit",
-        instants.fitting < 0 ? "before" : "after");
+        "right images fit the left image {} theirs better: one eye is shifted by {}; name or number the "
+        "images so that those of one "
+        "instant belong together. What else is said of pairs is of those that fit better",
+        instants.fitting < 0 ? "before" : "after", is_one ? "a frame" : "more than a frame");
   } else if (std::abs(instants.delay) > kDelayFine + 3 * instants.delay_sigma) {
     finding.judgement = Judgement::kWarning;
     finding.advice = fmt::format(
@@ -250,6 +253,30 @@ Finding judge_calibration(const StereoRig& rig) {
   return finding;
 }
 
+// What matches say. One fault, one finding: what is wrong with the pairing, and then with the sides, is put
+// right for what is asked next.
+std::vector<Finding> judge_rig(const RecordingSample& sample, double interval) {
+  const cv::Size image(sample.rig.width, sample.rig.height);
+  const Instants instants = measure_instants(sample.pairs, image);
+  const std::vector<PairMatch> matches = all_matches(sample.pairs, instants.fitting);
+  std::vector<Finding> findings = {judge_matches(sample, matches.size())};
+  // Few matches are wrong ones.
+  if (findings.front().judgement == Judgement::kBad || matches.size() < kFewMatches) return findings;
+  const RowOffsets rows = measure_rows(matches, image);
+  std::vector<PairMatch> kept = on_rows(matches, rows);
+  Finding sign = judge_sign(measure_disparities(kept));
+  if (sign.judgement == Judgement::kBad) {
+    for (PairMatch& match : kept) match.disparity = -match.disparity;
+    sign.advice += ". What else is said of disparities is of those exchanged";
+  }
+  const DisparityStatistics disparities = measure_disparities(kept);
+  findings.insert(findings.end(), {judge_instants(instants, interval),
+                                   judge_rows(rows, scatter_of_pairs(sample.pairs, instants.fitting, rows)),
+                                   sign, judge_infinity(disparities),
+                                   judge_disparities(sample.rig, disparities, sample.pairs.size())});
+  return findings;
+}
+
 }  // namespace
 
 std::span<const char* const> option_names(Judgement) {
@@ -275,7 +302,7 @@ Finding judge_rows(const RowOffsets& rows, double pair_scatter) {
       std::abs(rows.median), rows.median < 0 ? "higher" : "lower", rows.spread, std::abs(rows.worst_corner),
       rows.worst_corner < 0 ? "higher" : "lower", rows.slope_x * 180 / M_PI, 2 * rows.slope_y * rows.middle.y,
       pair_scatter);
-  if (rows.matches < kFewMatches) return finding;
+  if (rows.matches < static_cast<int>(kFewMatches)) return finding;
   // As far as it is known: few matches in one part of the image say little about its corners.
   const double corner = std::max(0.0, std::abs(rows.worst_corner) - 2 * rows.corner_sigma);
   const std::string tolerated =
@@ -285,14 +312,14 @@ Finding judge_rows(const RowOffsets& rows, double pair_scatter) {
     finding.judgement = judgement;
     finding.advice = advice;
   };
-  if (std::abs(rows.median) > kRowsBad || corner > FollowOptions{}.max_row_offset)
+  if (rows.spread > kRowsBad)
+    say(Judgement::kBad,
+        "rows do not correspond, and not in one way: the eyes are not of one instant, or the images are not "
+        "undistorted (then give the raw ones with their raw calibration); " +
+            tolerated);
+  else if (std::abs(rows.median) > kRowsBad || corner > FollowOptions{}.max_row_offset)
     say(Judgement::kBad, "rows do not correspond, and " + tolerated +
                              ": calibrate anew, or give the raw images with their raw calibration");
-  else if (rows.spread > kRowsBad)
-    say(Judgement::kBad,
-        "rows do not correspond, and not in one way: the images are not undistorted, or the eyes are not of "
-        "one instant; " +
-            tolerated);
   else if (std::abs(rows.median) > kRowsFine || corner > kRowsCornerFine)
     say(Judgement::kWarning, "the rectification is a little off; " + tolerated);
   else if (std::max(rows.spread, pair_scatter) > kRowsScatterFine)
@@ -307,7 +334,7 @@ Finding judge_sign(const DisparityStatistics& disparities) {
   finding.values = {{"negative", disparities.negative}, {"positive", disparities.positive}};
   finding.text = fmt::format("{:.1f} % of the disparities are clearly negative, {:.1f} % clearly positive",
                              100 * disparities.negative, 100 * disparities.positive);
-  if (disparities.matches < kFewMatches) return finding;
+  if (disparities.matches < static_cast<int>(kFewMatches)) return finding;
   if (seem_swapped(disparities)) {
     finding.judgement = Judgement::kBad;
     finding.advice =
@@ -326,24 +353,9 @@ std::vector<Finding> check_recording(const RecordingSample& sample) {
   const TimeSteps steps = measure_times(sample.times);
   std::vector<Finding> findings = {judge_pairs(sample)};
   if (!sample.pairs.empty()) {
-    const cv::Size image(sample.rig.width, sample.rig.height);
-    const Instants instants = measure_instants(sample.pairs, image);
-    // One fault, one finding: what is wrong with the pairing, and then with the sides, is put right for what
-    // is asked next.
-    const std::vector<PairMatch> matches = all_matches(sample.pairs, instants.fitting);
-    const RowOffsets rows = measure_rows(matches, image);
-    std::vector<PairMatch> kept = on_rows(matches, rows);
-    Finding sign = judge_sign(measure_disparities(kept));
-    if (sign.judgement == Judgement::kBad) {
-      for (PairMatch& match : kept) match.disparity = -match.disparity;
-      sign.advice += ". What else is said of disparities is of those exchanged";
-    }
-    const DisparityStatistics disparities = measure_disparities(kept);
-    findings.insert(findings.end(), {judge_matches(sample, rows), judge_instants(instants, steps.median),
-                                     judge_rows(rows, scatter_of_pairs(sample.pairs, instants.fitting, rows)),
-                                     sign, judge_infinity(disparities),
-                                     judge_disparities(sample.rig, disparities, sample.pairs.size()),
-                                     judge_images(sample.pairs)});
+    const std::vector<Finding> rig = judge_rig(sample, steps.median);
+    findings.insert(findings.end(), rig.begin(), rig.end());
+    findings.push_back(judge_images(sample.pairs));
   }
   findings.push_back(judge_times(steps));
   findings.push_back(judge_calibration(sample.rig));
