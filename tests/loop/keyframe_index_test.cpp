@@ -67,13 +67,6 @@ TEST_F(IndexOfThousand, ScoresAreThoseOfTheVectorsAndFallOff) {
   }
 }
 
-TEST_F(IndexOfThousand, ScoreIsSymmetricAndOneForItself) {
-  EXPECT_NEAR(index_.score(KeyframeId{5}, KeyframeId{5}), 1, 1e-5);
-  EXPECT_EQ(index_.score(KeyframeId{5}, KeyframeId{6}), index_.score(KeyframeId{6}, KeyframeId{5}));
-  EXPECT_LT(index_.score(KeyframeId{5}, KeyframeId{6}), 0.5);
-  EXPECT_EQ(index_.score(KeyframeId{5}, KeyframeId{5000}), 0);
-}
-
 TEST_F(IndexOfThousand, LeavesOutWhatIsExcluded) {
   const auto image = features(places_.image(40, 1));
   ASSERT_EQ(index_.query(image).at(0).id, KeyframeId{40});
@@ -104,8 +97,6 @@ TEST_F(IndexOfThousand, AnswersDoNotDependOnHistory) {
   EXPECT_EQ(one.query(words), other.query(words));
   other.add(KeyframeId{3}, *index_.find(KeyframeId{3}));
   EXPECT_EQ(one.query(words), other.query(words));
-  other.clear();
-  EXPECT_TRUE(other.query(words).empty());
 }
 
 // Keyframes in a row; each shares landmarks with the next.

@@ -41,10 +41,6 @@ void KeyframeIndex::erase(KeyframeId id) {
   keyframes_.erase(found);
 }
 
-void KeyframeIndex::clear() {
-  *this = KeyframeIndex(vocabulary_);
-}
-
 const WordVector* KeyframeIndex::find(KeyframeId id) const {
   const auto found = keyframes_.find(id);
   return found == keyframes_.end() ? nullptr : &slots_[found->second];
@@ -69,11 +65,6 @@ std::vector<Candidate> KeyframeIndex::query(const WordVector& words,
 std::vector<Candidate> KeyframeIndex::query(const KeyframeFeatures& features,
                                             const std::set<KeyframeId>& exclude) const {
   return query(vocabulary_.describe(features.descriptors), exclude);
-}
-
-double KeyframeIndex::score(KeyframeId a, KeyframeId b) const {
-  const WordVector *of_a = find(a), *of_b = find(b);
-  return of_a && of_b ? similarity(*of_a, *of_b) : 0;
 }
 
 namespace {

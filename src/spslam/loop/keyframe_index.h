@@ -38,7 +38,6 @@ class KeyframeIndex {
   void add(KeyframeId id, const KeyframeFeatures& features);
   void add(KeyframeId id, WordVector words);
   void erase(KeyframeId id);  // nothing if it is not there
-  void clear();
 
   std::size_t size() const { return keyframes_.size(); }
   const Vocabulary& vocabulary() const { return vocabulary_; }
@@ -48,8 +47,6 @@ class KeyframeIndex {
   std::vector<Candidate> query(const WordVector& words, const std::set<KeyframeId>& exclude = {}) const;
   std::vector<Candidate> query(const KeyframeFeatures& features,
                                const std::set<KeyframeId>& exclude = {}) const;
-  // The similarity of two keyframes; 0 if one is not there.
-  double score(KeyframeId a, KeyframeId b) const;
 
  private:
   struct Posting {
