@@ -170,12 +170,11 @@ void add_pair(const PairSums& sum, const Matrix6d& adjoint, int host, int pose, 
 
 void add_offset(const DisparityOffset& offset, int column, const std::vector<PieceSums>& sums,
                 NormalEquations& out) {
-  const Vector4d error = offset.coefficients - offset.prior_mean;
-  out.cost += error.dot(offset.prior_information * error);
+  out.cost += offset.coefficients.dot(offset.prior_information * offset.coefficients);
   if (column < 0) return;
   Eigen::Map<Matrix6d> hessian = out.pose_hessian.block(column / 6, column / 6);
   hessian.topLeftCorner<4, 4>() += offset.prior_information;
-  out.pose_gradient.segment<4>(column) += offset.prior_information * error;
+  out.pose_gradient.segment<4>(column) += offset.prior_information * offset.coefficients;
   for (const PieceSums& block : sums) {
     hessian.topLeftCorner<4, 4>() += block.offset_hessian;
     out.pose_gradient.segment<4>(column) += block.offset_gradient;

@@ -51,8 +51,7 @@ using Vector4d = Eigen::Matrix<double, 4, 1>;
 using Matrix4d = Eigen::Matrix<double, 4, 4>;
 struct DisparityOffset {
   Vector4d coefficients = Vector4d::Zero();
-  Vector4d prior_mean = Vector4d::Zero();
-  Matrix4d prior_information = Matrix4d::Zero();
+  Matrix4d prior_information = Matrix4d::Zero();  // 1/px^2, about 0
   bool fixed = true;
 
   static Vector4d basis(const StereoRig& rig, double u, double v) {
