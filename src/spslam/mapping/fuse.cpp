@@ -3,6 +3,7 @@
 
 #include "spslam/mapping/fuse.h"
 
+#include "spslam/base/weighted_mean.h"
 #include "spslam/map/moved_point.h"
 #include "spslam/mapping/duplicates.h"
 #include "spslam/optimize/problem.h"
@@ -139,9 +140,7 @@ class Fusion {
       if (!(information > 0)) return;
       const MovedPoint point = move_point(motion, gone.bearing, inverse_depth);
       if (!(point.depth_ratio > 1e-3)) return;
-      const double more = information * point.information_gain, sum = known + more;
-      into = (known * into + more * point.inverse_depth) / sum;
-      known = sum;
+      add_to_mean(point.inverse_depth, information * point.information_gain, into, known);
     };
     merge(gone.inverse_depth, gone.information, kept.inverse_depth, kept.information);
     merge(gone.stereo_inverse_depth, gone.stereo_information, kept.stereo_inverse_depth,
