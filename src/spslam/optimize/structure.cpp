@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "spslam/base/sort_unique.h"
 #include "spslam/optimize/normal_equations.h"
 #include "spslam/optimize/pieces.h"
 
@@ -15,11 +16,6 @@ std::vector<std::size_t> first_observations(const Problem& problem) {
   for (const Observation& z : problem.observations) ++first[static_cast<std::size_t>(z.landmark) + 1];
   for (std::size_t l = 1; l < first.size(); ++l) first[l] += first[l - 1];
   return first;
-}
-
-void sort_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 int place_of(int value, std::vector<int>::const_iterator begin, std::vector<int>::const_iterator end) {
