@@ -15,9 +15,9 @@ struct LinearSums {
   double information, gradient;
 };
 
-LinearSums linear_sums(const StereoRig& rig, const Eigen::Vector3d& bearing, std::span<const DepthView> views,
-                       const Triangulated& known) {
-  LinearSums sums{known.information, -known.information * known.inverse_depth};
+LinearSums linear_sums(const StereoRig& rig, const Eigen::Vector3d& bearing,
+                       std::span<const DepthView> views) {
+  LinearSums sums{0, 0};
   const double fb = rig.disparity_per_inverse_depth();
   for (const DepthView& view : views) {
     const Eigen::Vector3d seen = rig.bearing(view.measured.x(), view.measured.y());
@@ -266,13 +266,12 @@ class LandmarkMaker {
 }  // namespace
 
 std::optional<Triangulated> triangulate(const StereoRig& rig, const Eigen::Vector3d& bearing,
-                                        std::span<const DepthView> views, const Triangulated& known) {
-  const LinearSums start = linear_sums(rig, bearing, views, known);
+                                        std::span<const DepthView> views) {
+  const LinearSums start = linear_sums(rig, bearing, views);
   if (!(start.information > kLeastInformation)) return std::nullopt;
   Triangulated out{-start.gradient / start.information, 0};
   for (int step = 0; step < kNewtonSteps; ++step) {
-    double information = known.information,
-           gradient = known.information * (out.inverse_depth - known.inverse_depth);
+    double information = 0, gradient = 0;
     for (const DepthView& view : views) {
       const Linearized at = linearize(rig, view.camera_from_host, bearing, out.inverse_depth, view.measured);
       if (!at.in_front) return std::nullopt;

@@ -62,12 +62,11 @@ struct DepthView {
   Eigen::Vector3d inverse_sigma = Eigen::Vector3d::Zero();
 };
 
-// The inverse depth (1/m) of a bearing (x, y, 1) that fits all views and what is known of it already (a
-// Gaussian; information 0 for nothing) best by least squares, with its information (m^2): linear first, then
-// by Gauss and Newton on the reprojection errors. Nothing if it is not determined, not finite, or behind one
-// of the cameras.
+// The inverse depth (1/m) of a bearing (x, y, 1) that fits all views best by least squares, with its
+// information (m^2): linear first, then by Gauss and Newton on the reprojection errors. Nothing if it is not
+// determined, not finite, or behind one of the cameras.
 std::optional<Triangulated> triangulate(const StereoRig& rig, const Eigen::Vector3d& bearing,
-                                        std::span<const DepthView> views, const Triangulated& known = {});
+                                        std::span<const DepthView> views);
 
 // Landmarks for the features of `newest` and of its covisible keyframes that belong to none; their number.
 // Each is hosted by an older keyframe and has a sighting in every keyframe where it was matched. `next` is
