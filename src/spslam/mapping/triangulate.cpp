@@ -9,6 +9,7 @@ namespace {
 constexpr int kNewtonSteps = 4;
 constexpr double kLeastInformation = 1e-9;  // m^2
 constexpr double kMaxMove = 3;              // sigma of a feature that its aligned position may lie off it
+constexpr double kMaxScaleChange = 1.5;     // between the sizes that levels and that distances give
 
 // sum over views of |a w + c|^2 for the direct linear transform, in px of the views.
 struct LinearSums {
@@ -207,7 +208,7 @@ class LandmarkMaker {
         (motion.rotation * landmark.bearing + landmark.inverse_depth * motion.translation).norm() /
         landmark.bearing.norm();
     const double change = distances * std::pow(level_scale_, keypoint(other).octave - keypoint(host).octave);
-    return change <= options_.max_scale_change && change * options_.max_scale_change >= 1;
+    return change <= kMaxScaleChange && change * kMaxScaleChange >= 1;
   }
 
   // The mapper has no masks: what the nearest landmark is labelled, this is.

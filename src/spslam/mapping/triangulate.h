@@ -23,7 +23,6 @@ struct TriangulationOptions {
   double position_sigma = 0.35;
   double max_relative_sigma = 0.1;
   double max_chi2 = 5.99;
-  double max_scale_change = 1.5;
   double motion_sigma = 0.2;
 
   template <class Self, class Visitor>
@@ -45,9 +44,6 @@ struct TriangulationOptions {
     visit(self.max_chi2,
           {"max_chi2", "", "squared reprojection error over its variance in each view, at most (95 %: 5.99)",
            0.1, 100});
-    visit(self.max_scale_change,
-          {"max_scale_change", "",
-           "by which the sizes that the levels give and that the distances give may differ", 1, 10});
     visit(self.motion_sigma,
           {"motion_sigma", "", "relative error of the way between the keyframes, which the depth has from it",
            0, 1});

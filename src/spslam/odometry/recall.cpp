@@ -12,11 +12,13 @@
 namespace spslam {
 namespace {
 
+constexpr double kMaxScale = 1.5;  // by which the patch may have grown or shrunk
+
 bool looks_alike(const Landmark& landmark, const SE3& camera_from_host, const Prediction& prediction,
                  const RecallOptions& options) {
   const double area = std::abs(prediction.camera_from_host.determinant());
   const double scale = std::sqrt(area);
-  if (!(scale < options.max_scale && scale * options.max_scale > 1)) return false;
+  if (!(scale < kMaxScale && scale * kMaxScale > 1)) return false;
   const Eigen::Vector3d from_host = camera_from_host.rotation * landmark.bearing;
   const Eigen::Vector3d from_here = from_host + landmark.inverse_depth * camera_from_host.translation;
   const double cosine = from_host.dot(from_here) / (from_host.norm() * from_here.norm());
