@@ -132,17 +132,17 @@ TEST(CandidateGroups, AddUpCovisibleScores) {
 }
 
 TEST(CandidateGroups, KeepToTheirLimits) {
-  const Map map = chain(10);
-  const std::vector<Candidate> candidates = {
-      {KeyframeId{7}, 0.3}, {KeyframeId{6}, 0.2}, {KeyframeId{2}, 0.1}};
-  GroupingOptions options;
-  options.groups = 1;
-  EXPECT_EQ(group_candidates(candidates, map, options).size(), 1u);
-  options = {};
-  options.neighbours = 0;
-  const auto alone = group_candidates(candidates, map, options);
-  ASSERT_EQ(alone.size(), 3u);
-  EXPECT_DOUBLE_EQ(alone[0].score, 0.3);
+  std::vector<Candidate> alone, in_a_row;
+  for (int i = 0; i < 30; ++i) {
+    alone.push_back({KeyframeId{2 * i}, 0.3});
+    in_a_row.push_back({KeyframeId{i}, 0.3});
+  }
+  EXPECT_EQ(group_candidates(alone, chain(60)).size(), 20u);
+  Map map = chain(30);
+  for (int id = 1; id < 30; ++id) map.set_sighting(KeyframeId{id}, {LandmarkId{0}, {}, {}, 1});
+  const auto together = group_candidates(in_a_row, map);
+  ASSERT_FALSE(together.empty());
+  for (const CandidateGroup& group : together) EXPECT_EQ(group.members.size(), 11u);
   EXPECT_TRUE(group_candidates({}, map).empty());
 }
 
