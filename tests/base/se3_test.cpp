@@ -44,5 +44,21 @@ TEST(SE3, LogNearHalfTurn) {
   EXPECT_LT((so3_exp(so3_log(so3_exp(phi))) - so3_exp(phi)).norm(), 1e-7);
 }
 
+TEST(RotationBetween, IsThatOfTheDirections) {
+  Random random(9);
+  for (const int pairs : {2, 5}) {
+    const Eigen::Matrix3d rotation = so3_exp(random_twist(random, 1).tail<3>());
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (int i = 0; i < pairs; ++i) {
+      const Eigen::Vector3d a = random_twist(random, 1).head<3>().normalized();
+      sum += rotation * a * a.transpose();
+    }
+    EXPECT_LT((rotation_between(sum) - rotation).norm(), 1e-12);
+  }
+  // The nearest orthogonal matrix would be a mirror.
+  const Eigen::Matrix3d mirrored = Eigen::Vector3d(1, 1, -0.1).asDiagonal();
+  EXPECT_LT((rotation_between(mirrored) - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace spslam

@@ -24,7 +24,7 @@ TEST(Triangulate, FindsTheTrueInverseDepthFromPositionsAlone) {
   for (const auto& [id, landmark] : world.map.landmarks()) {
     Landmark wrong = landmark;
     wrong.inverse_depth += 0.02;
-    const auto out = triangulate(world.map, world.truth.rig, wrong);
+    const auto out = triangulate_by_observers(world.map, world.truth.rig, wrong);
     if (!out) continue;
     EXPECT_NEAR(out->inverse_depth, landmark.inverse_depth, 1e-6);
     EXPECT_GT(out->information, 0);
@@ -37,21 +37,21 @@ TEST(Triangulate, NothingFromOneView) {
   SyntheticOptions options = exact();
   options.cameras = 1;
   test::MapWorld world = test::make_map_world(options);
-  EXPECT_FALSE(triangulate(world.map, world.truth.rig, *world.map.find(LandmarkId{0})));
+  EXPECT_FALSE(triangulate_by_observers(world.map, world.truth.rig, *world.map.find(LandmarkId{0})));
 }
 
 TEST(Triangulate, NothingWithoutABaseline) {
   SyntheticOptions options = exact();
   options.step = 0;
   test::MapWorld world = test::make_map_world(options);
-  EXPECT_FALSE(triangulate(world.map, world.truth.rig, *world.map.find(LandmarkId{0})));
+  EXPECT_FALSE(triangulate_by_observers(world.map, world.truth.rig, *world.map.find(LandmarkId{0})));
 }
 
 TEST(Triangulate, NothingFromWhatIsNotFinite) {
   test::MapWorld world = test::make_map_world(exact());
   Landmark landmark = *world.map.find(LandmarkId{0});
   landmark.inverse_depth = std::nan("");
-  EXPECT_FALSE(triangulate(world.map, world.truth.rig, landmark));
+  EXPECT_FALSE(triangulate_by_observers(world.map, world.truth.rig, landmark));
 }
 
 // Figure 7: the angle between the rays exceeds both stereo parallaxes, so the wrong depth is replaced.

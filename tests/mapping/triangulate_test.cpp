@@ -59,20 +59,6 @@ TEST(TriangulateDepth, ErrorsAreAsLargeAsTheySay) {
   EXPECT_NEAR(sum / kCount, 1, 1.96 * std::sqrt(2.0 / kCount));
 }
 
-TEST(TriangulateDepth, WhatIsKnownAlreadyCountsByItsInformation) {
-  const StereoRig rig = test::feature_rig();
-  Random random(1);
-  const Eigen::Vector3d bearing = rig.bearing(400, 100);
-  const SE3 motion{Eigen::Matrix3d::Identity(), {-0.3, 0, 0}};
-  const DepthView view = view_of(rig, motion, 5 * bearing, 1, 0, random);
-  const auto alone = triangulate(rig, bearing, {&view, 1});
-  ASSERT_TRUE(alone);
-  const auto both = triangulate(rig, bearing, {&view, 1}, {0.3, alone->information});
-  ASSERT_TRUE(both);
-  EXPECT_NEAR(both->inverse_depth, (alone->inverse_depth + 0.3) / 2, 1e-6);
-  EXPECT_NEAR(both->information, 2 * alone->information, 1e-6 * alone->information);
-}
-
 TEST(TriangulateDepth, OfTheDisparityAlone) {
   const StereoRig rig = test::feature_rig();
   DepthView view;

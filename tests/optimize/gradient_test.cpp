@@ -44,12 +44,6 @@ Problem rich_problem() {
   return problem;
 }
 
-Matrix6d some_information() {
-  Matrix6d root = Matrix6d::Identity();
-  root(0, 3) = 0.5, root(2, 4) = -0.3, root(1, 5) = 0.2;
-  return 100 * root * root.transpose();
-}
-
 void move_pose(Problem& problem, std::size_t pose, int axis, double by) {
   const Vector6d xi = by * Vector6d::Unit(axis);
   problem.poses[pose].camera_from_world = SE3::exp(xi) * problem.poses[pose].camera_from_world;
@@ -140,26 +134,6 @@ INSTANTIATE_TEST_SUITE_P(Gradient, EveryLoss,
                            std::erase(name, '-');
                            return name;
                          });
-
-// Gradients of the priors on poses are first order in their residuals, which are small here.
-TEST(Gradient, OfPosePriors) {
-  Problem problem = make_synthetic_world({.cameras = 4, .points = 0}).truth;
-  const SE3 away = SE3::exp((Vector6d() << 1e-3, -2e-3, 5e-4, 2e-3, -1e-3, 1e-3).finished());
-  problem.pose_priors.push_back({2, away * problem.poses[2].camera_from_world, some_information()});
-  problem.pose_priors.push_back({0, problem.poses[0].camera_from_world, some_information()});  // a fixed one
-  expect_gradient(problem, with_loss(Loss::kCauchy), 3e-3);
-}
-
-TEST(Gradient, OfMotionPriors) {
-  Problem problem = make_synthetic_world({.cameras = 4, .points = 0}).truth;
-  disturb(problem, {1e-3, 1e-3, 0, 3});
-  for (const double ratio : {1.0, 1.2}) {
-    problem.motion_priors = {{0, 1, 2, ratio, some_information()}, {1, 2, 3, ratio, some_information()}};
-    if (ratio > 1)
-      for (MotionPrior& prior : problem.motion_priors) prior.information *= 0.1;  // a larger residual
-    expect_gradient(problem, with_loss(Loss::kCauchy), ratio > 1 ? 0.05 : 0.02);
-  }
-}
 
 // Where the residuals vanish, Gauss and Newton's Hessian is the true one: differences of the gradient.
 TEST(Hessian, IsTheDerivativeOfTheGradientWithoutResiduals) {

@@ -89,55 +89,5 @@ TEST(LinearizeObservation, SaysWhatIsBehindTheCamera) {
   EXPECT_TRUE(linearize(rig(), passed, {0, 0, 1}, 0, Eigen::Vector3d::Zero()).in_front);
 }
 
-// Three poses that keep the prior's motion up to a small deviation.
-std::array<SE3, 3> three_poses(Random& random, double ratio, double motion, double deviation) {
-  const Vector6d velocity = bounded_twist(random, motion, motion);
-  std::array<SE3, 3> poses;
-  poses[0] = SE3::exp(bounded_twist(random, 2, 1));
-  poses[1] = SE3::exp(velocity) * poses[0];
-  poses[2] = SE3::exp(bounded_twist(random, deviation, deviation)) * SE3::exp(ratio * velocity) * poses[1];
-  return poses;
-}
-
-double motion_prior_error(double ratio, double motion, double deviation) {
-  Random random(3);
-  double largest = 0;
-  const MotionPrior prior{0, 1, 2, ratio, Matrix6d::Identity()};
-  for (int i = 0; i < 50; ++i) {
-    const std::array<SE3, 3> poses = three_poses(random, ratio, motion, deviation);
-    const LinearizedMotion at = linearize(prior, poses[0], poses[1], poses[2]);
-    for (std::size_t p = 0; p < 3; ++p)
-      for (int axis = 0; axis < 6; ++axis) {
-        std::array<SE3, 3> plus = poses, minus = poses;
-        plus[p] = SE3::exp(along(axis, kStep)) * plus[p];
-        minus[p] = SE3::exp(along(axis, -kStep)) * minus[p];
-        const Vector6d numeric = (linearize(prior, plus[0], plus[1], plus[2]).residual -
-                                  linearize(prior, minus[0], minus[1], minus[2]).residual) /
-                                 (2 * kStep);
-        largest = std::max(largest, (at.by_pose[p].col(axis) - numeric).norm());
-      }
-  }
-  return largest;
-}
-
-TEST(LinearizeMotionPrior, IsZeroAtConstantVelocity) {
-  Random random(4);
-  const std::array<SE3, 3> poses = three_poses(random, 1.7, 0.3, 0);
-  const MotionPrior prior{0, 1, 2, 1.7, Matrix6d::Identity()};
-  EXPECT_LT(linearize(prior, poses[0], poses[1], poses[2]).residual.norm(), 1e-12);
-}
-
-TEST(LinearizeMotionPrior, DerivativesByAllThreePosesAreExactWhereItHolds) {
-  EXPECT_LT(motion_prior_error(1, 0.3, 0), 1e-8);
-}
-
-// Documented: first order in the residual; with unequal times also second order in the motion.
-TEST(LinearizeMotionPrior, DerivativesAreGoodToFirstOrderElsewhere) {
-  EXPECT_LT(motion_prior_error(1, 0.3, 0.01), 0.03);
-  EXPECT_LT(motion_prior_error(1, 0.3, 0.001), 0.003);
-  EXPECT_LT(motion_prior_error(1.5, 0.05, 0), 0.003);
-  EXPECT_LT(motion_prior_error(0.5, 0.05, 0), 0.003);
-}
-
 }  // namespace
 }  // namespace spslam

@@ -159,8 +159,7 @@ std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale) {
 
 CeresProblem::CeresProblem(const Problem& problem, Loss loss, double loss_scale)
     : loss_(make_loss(loss, loss_scale)), left_perturbation_(std::make_unique<LeftPerturbation>()) {
-  if (!problem.disparity_offset.fixed || !problem.pose_priors.empty() || !problem.motion_priors.empty())
-    throw std::invalid_argument("CeresProblem: no free disparity offset, no priors of poses");
+  if (!problem.disparity_offset.fixed) throw std::invalid_argument("CeresProblem: no free disparity offset");
   for (const PoseVariable& pose : problem.poses) {
     PoseBlock& block = poses_.emplace_back();
     Eigen::Map<Eigen::Quaterniond>(block.data()) = Eigen::Quaterniond(pose.camera_from_world.rotation);

@@ -13,8 +13,7 @@
 
 namespace spslam::test {
 
-// Throws std::invalid_argument for a free disparity offset, priors of poses or of motions. The problem has to
-// outlive it.
+// Throws std::invalid_argument for a free disparity offset. The problem has to outlive it.
 class CeresProblem {
  public:
   CeresProblem(const Problem& problem, Loss loss, double loss_scale);

@@ -251,21 +251,6 @@ TEST(Stereo, SameBitsAtAnyNumberOfThreads) {
   }
 }
 
-TEST(Stereo, InverseDepthKeepsSignAndScale) {
-  const StereoRig rig{
-      .fx = 400, .fy = 400, .cx = 320, .cy = 180, .baseline = 0.08, .width = 640, .height = 360};
-  const StereoMeasurement m{.disparity = 3.2F, .sigma = 0.2F, .row_offset = 0, .status = StereoStatus::kOk};
-  EXPECT_NEAR(inverse_depth(m, rig).value, 0.1, 1e-7);
-  EXPECT_NEAR(inverse_depth(m, rig).sigma, 0.2 / 32, 1e-7);
-  StereoMeasurement far = m;
-  far.disparity = -0.1F;
-  EXPECT_LT(inverse_depth(far, rig).value, 0);
-  EXPECT_TRUE(has_depth(m, 3));
-  EXPECT_FALSE(has_depth(far, 0));
-  far.disparity = 0.3F;
-  EXPECT_FALSE(has_depth(far, 2));
-}
-
 TEST(Stereo, OptionsAreInRange) {
   for (const StereoOptions& options : {StereoOptions(), paper_stereo_options(), baseline_stereo_options()})
     EXPECT_NO_THROW(check_options(options));

@@ -3,6 +3,7 @@
 
 #include "spslam/base/se3.h"
 
+#include <Eigen/SVD>
 #include <cmath>
 
 namespace spslam {
@@ -43,6 +44,12 @@ Eigen::Vector3d so3_log(const Eigen::Matrix3d& rotation) {
   const double sine = q.vec().norm();
   if (sine < kSmallAngle) return 2.0 / q.w() * q.vec();
   return 2.0 * std::atan2(sine, q.w()) / sine * q.vec();
+}
+
+Eigen::Matrix3d rotation_between(const Eigen::Matrix3d& sum_of_b_a) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum_of_b_a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  return svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
 }
 
 SE3 SE3::exp(const Vector6d& twist) {

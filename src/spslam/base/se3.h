@@ -20,6 +20,10 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 Eigen::Matrix3d so3_exp(const Eigen::Vector3d& rotation_vector);
 Eigen::Vector3d so3_log(const Eigen::Matrix3d& rotation);
 
+// The rotation R that brings directions a_i nearest to b_i, from the sum of b_i a_i' (Kabsch, 1976). Two
+// pairs are enough.
+Eigen::Matrix3d rotation_between(const Eigen::Matrix3d& sum_of_b_a);
+
 struct SE3 {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // m

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// SIGINT, SIGTERM and SIGHUP (a terminal or an ssh session that is gone) become a question that the loop over
-// the frames asks.
+// SIGINT, SIGTERM and SIGHUP (a terminal or an ssh session that is gone) become a question that loops over
+// frames ask.
 #pragma once
 
 namespace spslam {

@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 
 #include "spslam/cli/commands.h"
+#include "spslam/cli/run_signal.h"
 #include "spslam/sim/dataset_writer.h"
 
 namespace spslam {
@@ -23,12 +23,6 @@ struct SimulateArguments {
   bool overwrite = false;
   bool print = false;
 };
-
-// A signal can reach nothing but this.
-volatile std::sig_atomic_t interrupted = 0;
-extern "C" void on_interrupt(int) {
-  interrupted = 1;
-}
 
 int print_scene(const sim::SceneDescription& scene) {
   for (const OptionText& option : list_options(scene))
@@ -49,13 +43,12 @@ int simulate(const SimulateArguments& arguments) {
   if (arguments.print) return print_scene(request.scene);
   if (arguments.output.empty())
     throw OptionError("--output is missing; give the folder to write the data set to");
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  watch_for_interruption();
   const bool terminal = isatty(fileno(stderr)) != 0;
   const auto start = std::chrono::steady_clock::now();
   const sim::SimulationSummary summary = sim::simulate_dataset(request, [&](int written, int wanted) {
     if (terminal) std::fprintf(stderr, "\r%d of %d pairs", written, wanted);
-    return interrupted == 0;
+    return interruption() == 0;
   });
   if (terminal) std::fputc('\n', stderr);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -63,7 +56,7 @@ int simulate(const SimulateArguments& arguments) {
     std::fprintf(stderr,
                  "spslam: stopped after %d pairs; %s is incomplete and marked so, repeat with --overwrite\n",
                  summary.frames, arguments.output.c_str());
-    return 128 + SIGINT;
+    return 128 + interruption();
   }
   std::printf("%s: %d pairs (%d dropped), %.1f m, %.1f s, rendered in %.1f s (%.1f pairs/s)\n",
               arguments.output.c_str(), summary.frames, summary.dropped, summary.length, summary.duration,

@@ -3,11 +3,8 @@
 
 #include "spslam/loop/fusion.h"
 
-#include <algorithm>
-#include <set>
-#include <tuple>
-
 #include "spslam/loop/correspondences.h"
+#include "spslam/mapping/duplicates.h"
 
 namespace spslam {
 namespace {
@@ -45,12 +42,6 @@ class SightingTable {
   std::map<Pixel, int> feature_;
 };
 
-struct Duplicate {
-  int distance;
-  LandmarkId kept, gone;
-  friend auto operator<=>(const Duplicate&, const Duplicate&) = default;
-};
-
 class Fusion {
  public:
   Fusion(const Map& map, const StereoRig& rig, const LoopClosure& closure, const FusionOptions& options,
@@ -63,13 +54,8 @@ class Fusion {
     collect_older();
     for (const KeyframeId id : around(closure_.edge.newer)) match(*map_.find(id));
     add_pairs();
-    std::sort(duplicates_.begin(), duplicates_.end());
-    std::set<LandmarkId> taken;
-    for (const Duplicate& pair : duplicates_) {
-      if (taken.contains(pair.kept) || taken.contains(pair.gone)) continue;
-      taken.insert({pair.kept, pair.gone});
+    for (const Duplicate& pair : best_of_each(std::move(duplicates_)))
       correction_.fused.emplace_back(pair.kept, pair.gone);
-    }
   }
 
  private:

@@ -41,10 +41,6 @@ void KeyframeIndex::erase(KeyframeId id) {
   keyframes_.erase(found);
 }
 
-void KeyframeIndex::clear() {
-  *this = KeyframeIndex(vocabulary_);
-}
-
 const WordVector* KeyframeIndex::find(KeyframeId id) const {
   const auto found = keyframes_.find(id);
   return found == keyframes_.end() ? nullptr : &slots_[found->second];
@@ -71,18 +67,16 @@ std::vector<Candidate> KeyframeIndex::query(const KeyframeFeatures& features,
   return query(vocabulary_.describe(features.descriptors), exclude);
 }
 
-double KeyframeIndex::score(KeyframeId a, KeyframeId b) const {
-  const WordVector *of_a = find(a), *of_b = find(b);
-  return of_a && of_b ? similarity(*of_a, *of_b) : 0;
-}
-
 namespace {
 
+constexpr std::size_t kNeighbours = 10;  // most covisible keyframes whose scores are added to a candidate's
+constexpr int kGroups = 20;              // candidates looked at, the best ones
+
 CandidateGroup group_around(const Candidate& candidate, const std::map<KeyframeId, double>& scores,
-                            const Map& map, int neighbours) {
+                            const Map& map) {
   CandidateGroup group{candidate.id, candidate.score, candidate.score, {candidate.id}};
   std::vector<Covisible> near = map.covisible(candidate.id);
-  near.resize(std::min(near.size(), static_cast<std::size_t>(std::max(0, neighbours))));
+  near.resize(std::min(near.size(), kNeighbours));
   for (const Covisible& other : near) {
     const auto found = scores.find(other.id);
     if (found == scores.end()) continue;
@@ -96,17 +90,16 @@ CandidateGroup group_around(const Candidate& candidate, const std::map<KeyframeI
 
 }  // namespace
 
-std::vector<CandidateGroup> group_candidates(std::span<const Candidate> candidates, const Map& map,
-                                             const GroupingOptions& options) {
+std::vector<CandidateGroup> group_candidates(std::span<const Candidate> candidates, const Map& map) {
   std::map<KeyframeId, double> scores;
   for (const Candidate& candidate : candidates) scores[candidate.id] = candidate.score;
   std::map<KeyframeId, CandidateGroup> groups;  // by their best keyframe
   int made = 0;
   for (const Candidate& candidate : candidates) {
-    if (made >= options.groups) break;
+    if (made >= kGroups) break;
     if (!map.find(candidate.id)) continue;
     ++made;
-    CandidateGroup group = group_around(candidate, scores, map, options.neighbours);
+    CandidateGroup group = group_around(candidate, scores, map);
     CandidateGroup& kept = groups[group.best];
     if (group.score > kept.score) kept = std::move(group);
   }

@@ -38,7 +38,6 @@ class KeyframeIndex {
   void add(KeyframeId id, const KeyframeFeatures& features);
   void add(KeyframeId id, WordVector words);
   void erase(KeyframeId id);  // nothing if it is not there
-  void clear();
 
   std::size_t size() const { return keyframes_.size(); }
   const Vocabulary& vocabulary() const { return vocabulary_; }
@@ -48,8 +47,6 @@ class KeyframeIndex {
   std::vector<Candidate> query(const WordVector& words, const std::set<KeyframeId>& exclude = {}) const;
   std::vector<Candidate> query(const KeyframeFeatures& features,
                                const std::set<KeyframeId>& exclude = {}) const;
-  // The similarity of two keyframes; 0 if one is not there.
-  double score(KeyframeId a, KeyframeId b) const;
 
  private:
   struct Posting {
@@ -65,22 +62,9 @@ class KeyframeIndex {
   std::vector<std::vector<Posting>> inverse_;  // of each word
 };
 
-struct GroupingOptions {
-  int neighbours = 10;
-  int groups = 20;
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit(self.neighbours,
-          {"neighbours", "", "most covisible keyframes whose scores are added to a candidate's", 0, 1000});
-    visit(self.groups, {"groups", "", "candidates looked at, the best ones", 1, 1000});
-  }
-};
-
-// The best candidates, each with those of its most covisible keyframes that are candidates too; of groups
-// around the same best keyframe the one with the highest sum. Highest sum first, then by id. `candidates` as
-// query() gives them; those that the map does not have (any more) make no group.
-std::vector<CandidateGroup> group_candidates(std::span<const Candidate> candidates, const Map& map,
-                                             const GroupingOptions& options = {});
+// The 20 best candidates, each with those of its 10 most covisible keyframes that are candidates too; of
+// groups around the same best keyframe the one with the highest sum. Highest sum first, then by id.
+// `candidates` as query() gives them; those that the map does not have (any more) make no group.
+std::vector<CandidateGroup> group_candidates(std::span<const Candidate> candidates, const Map& map);
 
 }  // namespace spslam

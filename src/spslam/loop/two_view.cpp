@@ -3,7 +3,6 @@
 
 #include "spslam/loop/two_view.h"
 
-#include <Eigen/SVD>
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
@@ -60,14 +59,12 @@ std::vector<SE3> from_three_points(const StereoRig& rig,
   return out;
 }
 
-// The rotation that brings the directions of one view to those of the other (Kabsch, 1976).
+// The rotation that brings the directions of one view to those of the other.
 SE3 from_directions(const StereoRig& rig, const std::array<const Correspondence*, kSample>& sample) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Correspondence* c : sample)
     sum += rig.bearing(c->measured.x(), c->measured.y()).normalized() * c->bearing.normalized().transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  return {svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose(), Eigen::Vector3d::Zero()};
+  return {rotation_between(sum), Eigen::Vector3d::Zero()};
 }
 
 Problem two_view_problem(const StereoRig& rig, const std::vector<Correspondence>& all, const SE3& start) {

@@ -13,6 +13,7 @@
 
 #include "spslam/base/error.h"
 #include "spslam/base/random.h"
+#include "spslam/base/sort_unique.h"
 #include "spslam/loop/vocabulary.h"
 
 namespace spslam {
@@ -192,8 +193,7 @@ void weigh(VocabularyTree& tree, std::span<const std::vector<Descriptor>> images
   std::vector<std::vector<WordId>> words(images.size());
   tbb::parallel_for(std::size_t{0}, images.size(), [&](std::size_t i) {
     for (const Descriptor& descriptor : images[i]) words[i].push_back(unweighted.word(descriptor));
-    std::sort(words[i].begin(), words[i].end());
-    words[i].erase(std::unique(words[i].begin(), words[i].end()), words[i].end());
+    sort_unique(words[i]);
   });
   std::vector<int> having(tree.descriptors.size(), 0);
   for (const std::vector<WordId>& of_image : words)

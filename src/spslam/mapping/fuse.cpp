@@ -3,9 +3,9 @@
 
 #include "spslam/mapping/fuse.h"
 
-#include <set>
-
+#include "spslam/base/weighted_mean.h"
 #include "spslam/map/moved_point.h"
+#include "spslam/mapping/duplicates.h"
 #include "spslam/optimize/problem.h"
 
 namespace spslam {
@@ -36,12 +36,6 @@ class SightingsByColumn {
   std::vector<const Sighting*> by_x_;
 };
 
-struct Duplicate {
-  int distance;
-  LandmarkId kept, gone;
-  friend auto operator<=>(const Duplicate&, const Duplicate&) = default;
-};
-
 // A landmark from a camera: where, and how far, 1/m along z, with its variance.
 struct Seen {
   Eigen::Vector2d at;
@@ -66,16 +60,9 @@ class Fusion {
       for (const Sighting& s : newest_.sightings)
         if (!find_sighting(other, s.landmark)) compare(s.landmark, other, there, true);
     }
-    std::sort(found_.begin(), found_.end());
-    int fused = 0;
-    std::set<LandmarkId> taken;
-    for (const Duplicate& pair : found_)
-      if (!taken.contains(pair.kept) && !taken.contains(pair.gone)) {
-        taken.insert({pair.kept, pair.gone});
-        fuse(pair);
-        ++fused;
-      }
-    return fused;
+    const std::vector<Duplicate> pairs = best_of_each(std::move(found_));
+    for (const Duplicate& pair : pairs) fuse(pair);
+    return static_cast<int>(pairs.size());
   }
 
  private:
@@ -153,9 +140,7 @@ class Fusion {
       if (!(information > 0)) return;
       const MovedPoint point = move_point(motion, gone.bearing, inverse_depth);
       if (!(point.depth_ratio > 1e-3)) return;
-      const double more = information * point.information_gain, sum = known + more;
-      into = (known * into + more * point.inverse_depth) / sum;
-      known = sum;
+      add_to_mean(point.inverse_depth, information * point.information_gain, into, known);
     };
     merge(gone.inverse_depth, gone.information, kept.inverse_depth, kept.information);
     merge(gone.stereo_inverse_depth, gone.stereo_information, kept.stereo_inverse_depth,

@@ -3,7 +3,7 @@
 
 #include "spslam/mapping/local_adjustment.h"
 
-#include <algorithm>
+#include "spslam/base/sort_unique.h"
 
 namespace spslam {
 namespace {
@@ -24,14 +24,8 @@ std::vector<LandmarkId> seen_by(const Map& map, const std::vector<KeyframeId>& k
   std::vector<LandmarkId> out;
   for (const KeyframeId id : keyframes)
     for (const Sighting& sighting : map.find(id)->sightings) out.push_back(sighting.landmark);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  sort_unique(out);
   return out;
-}
-
-void sort_unique(std::vector<KeyframeId>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ Depth judge(const Map& map, const StereoRig& rig, const Landmark& landmark, cons
 
 }  // namespace
 
-std::optional<Triangulated> triangulate(const Map& map, const StereoRig& rig, const Landmark& landmark) {
+std::optional<Triangulated> triangulate_by_observers(const Map& map, const StereoRig& rig,
+                                                     const Landmark& landmark) {
   Triangulated out{landmark.inverse_depth, 0};
   for (int step = 0; step < kSteps; ++step) {
     const DepthSums sums = sum_views(map, rig, landmark, out.inverse_depth);
@@ -79,7 +80,7 @@ int retriangulate(Map& map, const StereoRig& rig, KeyframeId id, const Retriangu
     if (landmark.host == id || !map.find(landmark.host)) continue;
     const Depth depth = judge(map, rig, landmark, *keyframe, sighting, options.anomalous_sigmas);
     if (depth == Depth::kGood) continue;
-    const auto found = triangulate(map, rig, landmark);
+    const auto found = triangulate_by_observers(map, rig, landmark);
     if (!found) continue;
     // Keyframes alone seldom know better than all the frames that the tracker saw it in.
     if (depth == Depth::kImprovable && found->information <= landmark.information) continue;

@@ -27,7 +27,8 @@ struct RetriangulationOptions {
 struct Triangulated {
   double inverse_depth = 0, information = 0;
 };
-std::optional<Triangulated> triangulate(const Map& map, const StereoRig& rig, const Landmark& landmark);
+std::optional<Triangulated> triangulate_by_observers(const Map& map, const StereoRig& rig,
+                                                     const Landmark& landmark);
 
 // For each landmark that `keyframe` sees and did not find itself: if the angle between the rays from its host
 // and from this keyframe exceeds the stereo parallax of both, or its depth is anomalous, its position becomes

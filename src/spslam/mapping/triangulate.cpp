@@ -9,15 +9,16 @@ namespace {
 constexpr int kNewtonSteps = 4;
 constexpr double kLeastInformation = 1e-9;  // m^2
 constexpr double kMaxMove = 3;              // sigma of a feature that its aligned position may lie off it
+constexpr double kMaxScaleChange = 1.5;     // between the sizes that levels and that distances give
 
 // sum over views of |a w + c|^2 for the direct linear transform, in px of the views.
 struct LinearSums {
   double information, gradient;
 };
 
-LinearSums linear_sums(const StereoRig& rig, const Eigen::Vector3d& bearing, std::span<const DepthView> views,
-                       const Triangulated& known) {
-  LinearSums sums{known.information, -known.information * known.inverse_depth};
+LinearSums linear_sums(const StereoRig& rig, const Eigen::Vector3d& bearing,
+                       std::span<const DepthView> views) {
+  LinearSums sums{0, 0};
   const double fb = rig.disparity_per_inverse_depth();
   for (const DepthView& view : views) {
     const Eigen::Vector3d seen = rig.bearing(view.measured.x(), view.measured.y());
@@ -207,7 +208,7 @@ class LandmarkMaker {
         (motion.rotation * landmark.bearing + landmark.inverse_depth * motion.translation).norm() /
         landmark.bearing.norm();
     const double change = distances * std::pow(level_scale_, keypoint(other).octave - keypoint(host).octave);
-    return change <= options_.max_scale_change && change * options_.max_scale_change >= 1;
+    return change <= kMaxScaleChange && change * kMaxScaleChange >= 1;
   }
 
   // The mapper has no masks: what the nearest landmark is labelled, this is.
@@ -266,13 +267,12 @@ class LandmarkMaker {
 }  // namespace
 
 std::optional<Triangulated> triangulate(const StereoRig& rig, const Eigen::Vector3d& bearing,
-                                        std::span<const DepthView> views, const Triangulated& known) {
-  const LinearSums start = linear_sums(rig, bearing, views, known);
+                                        std::span<const DepthView> views) {
+  const LinearSums start = linear_sums(rig, bearing, views);
   if (!(start.information > kLeastInformation)) return std::nullopt;
   Triangulated out{-start.gradient / start.information, 0};
   for (int step = 0; step < kNewtonSteps; ++step) {
-    double information = known.information,
-           gradient = known.information * (out.inverse_depth - known.inverse_depth);
+    double information = 0, gradient = 0;
     for (const DepthView& view : views) {
       const Linearized at = linearize(rig, view.camera_from_host, bearing, out.inverse_depth, view.measured);
       if (!at.in_front) return std::nullopt;

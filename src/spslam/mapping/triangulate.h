@@ -23,7 +23,6 @@ struct TriangulationOptions {
   double position_sigma = 0.35;
   double max_relative_sigma = 0.1;
   double max_chi2 = 5.99;
-  double max_scale_change = 1.5;
   double motion_sigma = 0.2;
 
   template <class Self, class Visitor>
@@ -45,9 +44,6 @@ struct TriangulationOptions {
     visit(self.max_chi2,
           {"max_chi2", "", "squared reprojection error over its variance in each view, at most (95 %: 5.99)",
            0.1, 100});
-    visit(self.max_scale_change,
-          {"max_scale_change", "",
-           "by which the sizes that the levels give and that the distances give may differ", 1, 10});
     visit(self.motion_sigma,
           {"motion_sigma", "", "relative error of the way between the keyframes, which the depth has from it",
            0, 1});
@@ -62,12 +58,11 @@ struct DepthView {
   Eigen::Vector3d inverse_sigma = Eigen::Vector3d::Zero();
 };
 
-// The inverse depth (1/m) of a bearing (x, y, 1) that fits all views and what is known of it already (a
-// Gaussian; information 0 for nothing) best by least squares, with its information (m^2): linear first, then
-// by Gauss and Newton on the reprojection errors. Nothing if it is not determined, not finite, or behind one
-// of the cameras.
+// The inverse depth (1/m) of a bearing (x, y, 1) that fits all views best by least squares, with its
+// information (m^2): linear first, then by Gauss and Newton on the reprojection errors. Nothing if it is not
+// determined, not finite, or behind one of the cameras.
 std::optional<Triangulated> triangulate(const StereoRig& rig, const Eigen::Vector3d& bearing,
-                                        std::span<const DepthView> views, const Triangulated& known = {});
+                                        std::span<const DepthView> views);
 
 // Landmarks for the features of `newest` and of its covisible keyframes that belong to none; their number.
 // Each is hosted by an older keyframe and has a sighting in every keyframe where it was matched. `next` is

@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "spslam/base/weighted_mean.h"
+
 namespace spslam {
 namespace {
 
@@ -30,15 +32,6 @@ DepthEvidence depth_evidence(const ActiveMap& map, const Landmark& landmark, con
           landmark.inverse_depth - w.cwiseProduct(at.by_inverse_depth).dot(at.residual) / information};
 }
 
-// What the sighting's disparity alone says, of which the poses do not matter much.
-void keep_stereo(const DepthEvidence& evidence, Landmark& landmark) {
-  const double sum = landmark.stereo_information + evidence.information;
-  landmark.stereo_inverse_depth = (landmark.stereo_information * landmark.stereo_inverse_depth +
-                                   evidence.information * evidence.inverse_depth) /
-                                  sum;
-  landmark.stereo_information = sum;
-}
-
 void keep_as_prior(ActiveMap& map, const WindowFrame& frame, const SolverOptions& options) {
   for (const Sighting& sighting : frame.sightings) {
     const int i = map.index_of(sighting.landmark);
@@ -46,17 +39,16 @@ void keep_as_prior(ActiveMap& map, const WindowFrame& frame, const SolverOptions
     ActiveLandmark& active = map.landmarks[i];
     const DepthEvidence evidence = depth_evidence(map, active.landmark, frame, sighting, options);
     if (evidence.information <= 0) continue;
-    const double sum = active.prior_information + evidence.information;
-    active.prior_inverse_depth = (active.prior_information * active.prior_inverse_depth +
-                                  evidence.information * evidence.inverse_depth) /
-                                 sum;
-    active.prior_information = sum;
+    add_to_mean(evidence.inverse_depth, evidence.information, active.prior_inverse_depth,
+                active.prior_information);
     if (frame.keyframe.valid()) continue;
+    // What the disparity alone says, of which the poses do not matter much.
     Sighting stereo = sighting;
     stereo.inverse_sigma.head<2>().setZero();
     if (const DepthEvidence alone = depth_evidence(map, active.landmark, frame, stereo, options);
         alone.information > 0)
-      keep_stereo(alone, active.landmark);
+      add_to_mean(alone.inverse_depth, alone.information, active.landmark.stereo_inverse_depth,
+                  active.landmark.stereo_information);
   }
 }
 

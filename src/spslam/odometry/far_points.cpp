@@ -3,7 +3,6 @@
 
 #include "spslam/odometry/far_points.h"
 
-#include <Eigen/SVD>
 #include <numeric>
 
 #include "spslam/base/random.h"
@@ -36,10 +35,7 @@ std::vector<Bearings> far_bearings(const ActiveMap& map, const SE3& predicted,
 
 // The rotation that takes a.predicted and b.predicted nearest to where they were seen.
 Eigen::Matrix3d rotation_of(const Bearings& a, const Bearings& b) {
-  const Eigen::Matrix3d h = a.predicted * a.seen.transpose() + b.predicted * b.seen.transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1;
-  return svd.matrixV() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixU().transpose();
+  return rotation_between(a.seen * a.predicted.transpose() + b.seen * b.predicted.transpose());
 }
 
 std::vector<char> largest_consensus(const std::vector<Bearings>& all, double threshold, int rounds,

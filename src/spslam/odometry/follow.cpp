@@ -27,8 +27,8 @@ Sighting make_sighting(LandmarkId id, const Eigen::Vector2f& position, double si
 }
 
 void add_disparity(const Frame& frame, double predicted, const TrackerOptions& options, Sighting& sighting) {
-  const auto disparity = align_disparity(frame, sighting.measured.head<2>().cast<float>(), predicted,
-                                         options.follow.disparity_first_level, options);
+  const auto disparity =
+      align_disparity(frame, sighting.measured.head<2>().cast<float>(), predicted, 0, options);
   if (!disparity) return;
   sighting.measured.z() = *disparity;
   sighting.inverse_sigma.z() = 1 / options.follow.disparity_sigma;

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "spslam/odometry/follow.h"
+#include "spslam/odometry/occupancy.h"
 
 namespace spslam {
 namespace {
@@ -45,20 +46,13 @@ std::vector<std::optional<double>> measure_all(const Frame& frame, const std::ve
 std::vector<NewLandmark> from_stereo_stage(const ActiveMap& map, const Frame& frame,
                                            const std::vector<Sighting>& sightings, int count,
                                            const TrackerOptions& options) {
-  cv::Mat taken(map.rig.height, map.rig.width, CV_8UC1, cv::Scalar(0));
-  const auto mark = [&](double x, double y) {
-    const auto r = static_cast<int>(options.landmarks.spacing);
-    const cv::Rect box(static_cast<int>(x) - r, static_cast<int>(y) - r, 2 * r + 1, 2 * r + 1);
-    taken(box & cv::Rect(0, 0, taken.cols, taken.rows)).setTo(255);
-  };
-  for (const Sighting& sighting : sightings) mark(sighting.measured.x(), sighting.measured.y());
+  Occupancy occupancy(map.rig, options.landmarks.spacing);
+  for (const Sighting& sighting : sightings) occupancy.take(sighting.measured.head<2>());
   std::vector<NewLandmark> found;
   for (std::size_t i = 0; i < frame.stereo.size() && static_cast<int>(found.size()) < count; ++i) {
     const Keypoint& k = frame.features.keypoints[i];
     const auto x = static_cast<int>(std::lround(k.x)), y = static_cast<int>(std::lround(k.y));
-    if (!frame.stereo[i].ok() || x < 0 || y < 0 || x >= taken.cols || y >= taken.rows ||
-        taken.at<unsigned char>(y, x))
-      continue;
+    if (!frame.stereo[i].ok() || occupancy.is_taken(x, y)) continue;
     found.push_back(make_landmark(map, frame, k, frame.features.descriptors[i],
                                   {frame.stereo[i].disparity, frame.stereo[i].sigma}));
   }

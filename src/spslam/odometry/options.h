@@ -30,7 +30,6 @@ struct FollowOptions {
   int scouts = 120;
   int scout_levels = 4;
   int levels = 2;
-  int disparity_first_level = 0;
   double max_move = 12;
   double search_radius = 20;
   int max_distance = 64;
@@ -53,8 +52,6 @@ struct FollowOptions {
           {"scouts", "", "landmarks followed first and widely, to predict the others better", 0, 10000});
     visit(self.scout_levels, {"scout_levels", "", "pyramid levels the scouts are aligned on", 1, 6});
     visit(self.levels, {"levels", "", "pyramid levels the others are aligned on", 1, 6});
-    visit(self.disparity_first_level,
-          {"disparity_first_level", "", "pyramid level on which alignment from eye to eye starts", 0, 5});
     visit(self.max_move,
           {"max_move", "px", "farthest from its prediction that a patch may be found after the scouts", 0.5,
            200});
@@ -179,14 +176,12 @@ struct RecallOptions {
   bool enabled = true;
   int count = 200;
   double max_angle = 30;
-  double max_scale = 1.5;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.enabled, {"enabled", "", "look again for landmarks of the local map that should be in sight"});
     visit(self.count, {"count", "", "looked for at most after each keyframe", 0, 10000});
     visit(self.max_angle, {"max_angle", "deg", "between the views from the host and from here", 1, 90});
-    visit(self.max_scale, {"max_scale", "", "by which the patch may have grown or shrunk", 1, 10});
   }
 };
 

@@ -7,34 +7,18 @@
 #include <set>
 
 #include "spslam/odometry/follow.h"
+#include "spslam/odometry/occupancy.h"
 
 namespace spslam {
 namespace {
 
-// The places of an image that are taken.
-class Occupancy {
- public:
-  Occupancy(const StereoRig& rig, double spacing)
-      : taken_(rig.height, rig.width, CV_8UC1, cv::Scalar(0)), radius_(static_cast<int>(spacing)) {}
-  bool is_taken(const Eigen::Vector2d& at) const {
-    return taken_.at<unsigned char>(static_cast<int>(at.y()), static_cast<int>(at.x())) != 0;
-  }
-  void take(const Eigen::Vector2d& at) {
-    const cv::Rect box(static_cast<int>(at.x()) - radius_, static_cast<int>(at.y()) - radius_,
-                       2 * radius_ + 1, 2 * radius_ + 1);
-    taken_(box & cv::Rect(0, 0, taken_.cols, taken_.rows)).setTo(255);
-  }
-
- private:
-  cv::Mat taken_;
-  int radius_;
-};
+constexpr double kMaxScale = 1.5;  // by which the patch may have grown or shrunk
 
 bool looks_alike(const Landmark& landmark, const SE3& camera_from_host, const Prediction& prediction,
                  const RecallOptions& options) {
   const double area = std::abs(prediction.camera_from_host.determinant());
   const double scale = std::sqrt(area);
-  if (!(scale < options.max_scale && scale * options.max_scale > 1)) return false;
+  if (!(scale < kMaxScale && scale * kMaxScale > 1)) return false;
   const Eigen::Vector3d from_host = camera_from_host.rotation * landmark.bearing;
   const Eigen::Vector3d from_here = from_host + landmark.inverse_depth * camera_from_host.translation;
   const double cosine = from_host.dot(from_here) / (from_host.norm() * from_here.norm());
@@ -65,7 +49,8 @@ std::vector<Landmark> landmarks_in_sight(const ActiveMap& map, const LocalMapVie
     if (static_cast<int>(out.size()) >= options.recall.count) break;
     const auto at = predict(local, landmark, camera_from_world);
     const SE3 motion = camera_from_world * local.hosts.at(landmark.host).camera_from_world.inverse();
-    if (!at || occupancy.is_taken(at->position) || !looks_alike(landmark, motion, *at, options.recall))
+    if (!at || occupancy.is_taken(static_cast<int>(at->position.x()), static_cast<int>(at->position.y())) ||
+        !looks_alike(landmark, motion, *at, options.recall))
       continue;
     occupancy.take(at->position);
     out.push_back(landmark);

@@ -31,6 +31,8 @@ struct StageTimes {
 };
 
 struct TrackResult {
+  static constexpr double kLostVariance = 1e6;  // m^2 and rad^2: nothing is known
+
   FrameId frame;
   double timestamp = 0;  // s
   TrackStatus status = TrackStatus::kInitializing;
@@ -39,7 +41,8 @@ struct TrackResult {
   // them.
   SE3 world_from_camera;
   // Of a perturbation (translation m, rotation rad) in the camera's own axes: T_measured = T_true exp(xi). Of
-  // the motion against the local map, not of the drift since the start; huge when lost.
+  // the motion against the local map, not of the drift since the start; kLostVariance
+  // when lost.
   Matrix6d covariance = Matrix6d::Identity();
   double entropy = 0;      // nats, equation (10)
   double far_weight = 1;   // w_t, equation (8)

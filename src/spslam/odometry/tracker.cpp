@@ -9,9 +9,8 @@
 namespace spslam {
 namespace {
 
-constexpr double kLostVariance = 1e6;  // m^2 and rad^2: nothing is known
-constexpr double kCertain = 1e-12;     // m^2 and rad^2: where the world begins
-constexpr int kPreciseTries = 3;       // after which a place that does not tell the position will do
+constexpr double kCertain = 1e-12;  // m^2 and rad^2: where the world begins
+constexpr int kPreciseTries = 3;    // after which a place that does not tell the position will do
 
 // Indices into map.landmarks, spread evenly over all of them: every n-th first, then the others.
 std::vector<int> scouts_first(std::size_t count, std::size_t scouts) {
@@ -258,7 +257,7 @@ void Tracker::finish_frame(TrackerOutput& out) {
   const SE3 pose = measured ? map_.window.back().camera_from_world : motion_.predict(result.timestamp);
   result.world_from_camera = pose.inverse();
   result.covariance = motion_covariance_;
-  if (status_ == TrackStatus::kLost) result.covariance = kLostVariance * Matrix6d::Identity();
+  if (status_ == TrackStatus::kLost) result.covariance = TrackResult::kLostVariance * Matrix6d::Identity();
   if (status_ == TrackStatus::kCoasting)
     result.covariance += coasting_covariance(result.timestamp - motion_.last_timestamp());
   result.entropy = differential_entropy(result.covariance);

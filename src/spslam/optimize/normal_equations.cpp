@@ -168,42 +168,13 @@ void add_pair(const PairSums& sum, const Matrix6d& adjoint, int host, int pose, 
   if (pose >= 0) add_to_hessian(pose, host, -half, out);
 }
 
-void add_pose_prior(const PosePrior& prior, const Problem& problem, const PoseColumns& columns,
-                    NormalEquations& out) {
-  const Vector6d r = (problem.poses[prior.pose].camera_from_world * prior.camera_from_world.inverse()).log();
-  out.cost += r.dot(prior.information * r);
-  const int column = columns.of_pose[prior.pose];
-  if (column < 0) return;
-  add_to_hessian(column, column, prior.information, out);
-  out.pose_gradient.segment<6>(column) += prior.information * r;
-}
-
-void add_motion_prior(const MotionPrior& prior, const Problem& problem, const PoseColumns& columns,
-                      NormalEquations& out) {
-  const std::array<int, 3> poses = {prior.first, prior.second, prior.third};
-  const LinearizedMotion at =
-      linearize(prior, problem.poses[poses[0]].camera_from_world, problem.poses[poses[1]].camera_from_world,
-                problem.poses[poses[2]].camera_from_world);
-  out.cost += at.residual.dot(prior.information * at.residual);
-  for (int a = 0; a < 3; ++a) {
-    const int row = columns.of_pose[poses[a]];
-    if (row < 0) continue;
-    const Matrix6d weighted = at.by_pose[a].transpose() * prior.information;
-    out.pose_gradient.segment<6>(row) += weighted * at.residual;
-    for (int b = 0; b < 3; ++b)
-      if (const int column = columns.of_pose[poses[b]]; column >= 0 && column <= row)
-        add_to_hessian(row, column, weighted * at.by_pose[b], out);
-  }
-}
-
 void add_offset(const DisparityOffset& offset, int column, const std::vector<PieceSums>& sums,
                 NormalEquations& out) {
-  const Vector4d error = offset.coefficients - offset.prior_mean;
-  out.cost += error.dot(offset.prior_information * error);
+  out.cost += offset.coefficients.dot(offset.prior_information * offset.coefficients);
   if (column < 0) return;
   Eigen::Map<Matrix6d> hessian = out.pose_hessian.block(column / 6, column / 6);
   hessian.topLeftCorner<4, 4>() += offset.prior_information;
-  out.pose_gradient.segment<4>(column) += offset.prior_information * error;
+  out.pose_gradient.segment<4>(column) += offset.prior_information * offset.coefficients;
   for (const PieceSums& block : sums) {
     hessian.topLeftCorner<4, 4>() += block.offset_hessian;
     out.pose_gradient.segment<4>(column) += block.offset_gradient;
@@ -241,8 +212,6 @@ void build_normal_equations(const Problem& problem, const ProblemStructure& stru
     }
   }
   add_offset(problem.disparity_offset, columns.offset, sums, out);
-  for (const PosePrior& prior : problem.pose_priors) add_pose_prior(prior, problem, columns, out);
-  for (const MotionPrior& prior : problem.motion_priors) add_motion_prior(prior, problem, columns, out);
 }
 
 }  // namespace spslam

@@ -56,7 +56,7 @@ struct ProblemStructure {
  private:
   void list_pairs(const Problem& problem);
   void list_entries(const Problem& problem);
-  void find_envelope(const Problem& problem);
+  void find_envelope();
 };
 
 struct NormalEquations {

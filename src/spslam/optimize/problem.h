@@ -51,8 +51,7 @@ using Vector4d = Eigen::Matrix<double, 4, 1>;
 using Matrix4d = Eigen::Matrix<double, 4, 4>;
 struct DisparityOffset {
   Vector4d coefficients = Vector4d::Zero();
-  Vector4d prior_mean = Vector4d::Zero();
-  Matrix4d prior_information = Matrix4d::Zero();
+  Matrix4d prior_information = Matrix4d::Zero();  // 1/px^2, about 0
   bool fixed = true;
 
   static Vector4d basis(const StereoRig& rig, double u, double v) {
@@ -62,29 +61,11 @@ struct DisparityOffset {
   double at(const StereoRig& rig, double u, double v) const { return basis(rig, u, v).dot(coefficients); }
 };
 
-// (T_mean^-1 applied on the right) r = log(T T_mean^-1), cost r' information r.
-struct PosePrior {
-  int pose = 0;
-  SE3 camera_from_world;
-  Matrix6d information;
-};
-
-// A boat has inertia: the motion from `second` to `third` is that from `first` to `second`, scaled by the
-// ratio of the times, up to white noise on the acceleration (Anderson and Barfoot, 2015, in its simplest,
-// discrete form).
-struct MotionPrior {
-  int first = 0, second = 0, third = 0;  // poses, in order of time
-  double time_ratio = 1;                 // (t3 - t2) / (t2 - t1)
-  Matrix6d information;
-};
-
 struct Problem {
   StereoRig rig;
   std::vector<PoseVariable> poses;
   std::vector<LandmarkVariable> landmarks;
   std::vector<Observation> observations;  // grouped by landmark, in ascending order
-  std::vector<PosePrior> pose_priors;
-  std::vector<MotionPrior> motion_priors;
   DisparityOffset disparity_offset;
 };
 
@@ -132,14 +113,6 @@ struct Linearized {
 };
 Linearized linearize(const StereoRig& rig, const SE3& camera_from_host, const Eigen::Vector3d& bearing,
                      double inverse_depth, const Eigen::Vector3d& measured);
-
-// Residual of a motion prior and its derivatives by left perturbations of its three poses (first order in the
-// residual).
-struct LinearizedMotion {
-  Vector6d residual;
-  std::array<Matrix6d, 3> by_pose;
-};
-LinearizedMotion linearize(const MotionPrior& prior, const SE3& first, const SE3& second, const SE3& third);
 
 // Minimizes the robust cost over the free poses and landmarks by Levenberg-Marquardt with the landmarks
 // eliminated (Schur complement; Triggs et al. 2000). Poses and inverse depths of `problem` are replaced by

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
-#include <array>
 
+#include "spslam/base/sort_unique.h"
 #include "spslam/optimize/normal_equations.h"
 #include "spslam/optimize/pieces.h"
 
@@ -16,11 +16,6 @@ std::vector<std::size_t> first_observations(const Problem& problem) {
   for (const Observation& z : problem.observations) ++first[static_cast<std::size_t>(z.landmark) + 1];
   for (std::size_t l = 1; l < first.size(); ++l) first[l] += first[l - 1];
   return first;
-}
-
-void sort_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 int place_of(int value, std::vector<int>::const_iterator begin, std::vector<int>::const_iterator end) {
@@ -41,7 +36,7 @@ ProblemStructure::ProblemStructure(const Problem& problem)
     : columns(problem), first_observation(first_observations(problem)) {
   list_pairs(problem);
   list_entries(problem);
-  find_envelope(problem);
+  find_envelope();
 }
 
 void ProblemStructure::list_pairs(const Problem& problem) {
@@ -106,7 +101,7 @@ void ProblemStructure::list_entries(const Problem& problem) {
   }
 }
 
-void ProblemStructure::find_envelope(const Problem& problem) {
+void ProblemStructure::find_envelope() {
   for (int row = 0; row < columns.blocks(); ++row) envelope.push_back(row);
   if (columns.offset >= 0) envelope.back() = 0;
   const auto couple = [&](int a, int b) {
@@ -116,16 +111,9 @@ void ProblemStructure::find_envelope(const Problem& problem) {
   for (std::size_t l = 0; l + 1 < first_entry.size(); ++l)
     for (std::size_t e = first_entry[l]; e < first_entry[l + 1]; ++e)
       couple(block_of_entry[first_entry[l]], block_of_entry[e]);
-  const auto couple_poses = [&](int a, int b) {
-    if (columns.of_pose[a] >= 0 && columns.of_pose[b] >= 0)
-      couple(columns.of_pose[a] / 6, columns.of_pose[b] / 6);
-  };
-  for (const ObservedPair& pair : pairs) couple_poses(pair.host, pair.pose);
-  for (const MotionPrior& prior : problem.motion_priors) {
-    couple_poses(prior.first, prior.second);
-    couple_poses(prior.first, prior.third);
-    couple_poses(prior.second, prior.third);
-  }
+  for (const ObservedPair& pair : pairs)
+    if (columns.of_pose[pair.host] >= 0 && columns.of_pose[pair.pose] >= 0)
+      couple(columns.of_pose[pair.host] / 6, columns.of_pose[pair.pose] / 6);
 }
 
 }  // namespace spslam

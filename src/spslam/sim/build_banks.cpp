@@ -143,7 +143,6 @@ void build_bank(Mesh& mesh, const Shoreline& shore, const SceneDescription& scen
     first = last;
   }
   // The land beyond, as wide as the far tree line stands away.
-  std::vector<std::size_t> coarse;
   const double far = std::max(40.0, scene.backdrop.tree_line + 20);
   Shoreline wide = shore;
   wide.points.clear();

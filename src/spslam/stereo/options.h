@@ -57,14 +57,12 @@ struct StereoOptions {
   bool alignment = true;
   bool align_unmatched = true;
   int align_first_level = 0;
-  int align_unmatched_level = 1;
   double align_max_move = 3.0;
   double align_max_return = 0.3;
   double align_max_row_offset = 2.0;
   double align_near_disparity = 3.0;
   int align_near_radius = 5;
   AlignmentOptions align{.patch_radius = 7, .iterations = 8, .convergence = 0.02};
-  double coarse_sigma = 0.6;
   DisparityNoise block_noise{0.06, 0.09};
   DisparityNoise align_noise{0.03, 1.8};
 
@@ -106,8 +104,6 @@ struct StereoOptions {
     visit(self.align_first_level,
           {"align_first_level", "", "level (each half the size) on which a matched point's alignment starts",
            0, 5});
-    visit(self.align_unmatched_level,
-          {"align_unmatched_level", "", "the same for a point that starts from its neighbours", 0, 5});
     visit(self.align_max_move, {"align_max_move", "px", "farthest that alignment may move a match", 0.1, 20});
     visit(self.align_max_return,
           {"align_max_return", "px", "farthest from the left point that the way back may end", 0.01, 5});
@@ -120,8 +116,6 @@ struct StereoOptions {
           {"align_near_radius", "px",
            "half width of the patch of a near point; align.patch_radius is that of the others", 2, 7});
     visit.group("align", self.align);
-    visit(self.coarse_sigma,
-          {"coarse_sigma", "px", "deviation of a disparity taken from the keypoints alone", 0.01, 10});
     visit.group("block_noise", self.block_noise);
     visit.group("align_noise", self.align_noise);
   }

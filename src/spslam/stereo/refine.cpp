@@ -15,6 +15,7 @@ namespace spslam {
 namespace {
 
 constexpr float kSameStart = 1.0F;  // px: alignment from a start this near ends in the same place
+constexpr int kUnmatchedLevel = 1;  // half size, where alignment from the neighbours' disparity starts
 
 struct Aligner {
   const AlignmentPyramid& left;
@@ -30,7 +31,7 @@ struct Aligner {
     AlignmentOptions patch = options.align;
     if (start.disparity > options.align_near_disparity) patch.patch_radius = options.align_near_radius;
     const Eigen::Matrix2f no_warp = Eigen::Matrix2f::Identity();
-    const int first = known ? options.align_first_level : options.align_unmatched_level;
+    const int first = known ? options.align_first_level : kUnmatchedLevel;
     const Alignment there = align_patch(left, point, right, guess, no_warp, patch, first);
     if (!there.ok()) return m;
     const Alignment back = align_patch(right, there.position, left, point, no_warp, patch, 0);

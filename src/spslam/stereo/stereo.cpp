@@ -13,6 +13,8 @@
 namespace spslam {
 namespace {
 
+constexpr float kCoarseSigma = 0.6F;  // px, of a disparity taken from the keypoints alone
+
 void check_levels(std::span<const cv::Mat> left, std::span<const cv::Mat> right) {
   const auto fail = [](const std::string& what) {
     throw InputError("stereo: " + what +
@@ -30,14 +32,13 @@ void check_levels(std::span<const cv::Mat> left, std::span<const cv::Mat> right)
 
 // The keypoints' own positions, the plainest measurement.
 std::vector<StereoMeasurement> from_keypoints(const Features& left, const Features& right,
-                                              std::span<const CoarseMatch> matches,
-                                              const StereoOptions& options) {
+                                              std::span<const CoarseMatch> matches) {
   std::vector<StereoMeasurement> measurements(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     measurements[i].status = matches[i].status;
     if (matches[i].status != StereoStatus::kOk) continue;
     const Keypoint &l = left.keypoints[i], &r = right.keypoints[matches[i].right];
-    measurements[i] = {l.x - r.x, static_cast<float>(options.coarse_sigma), r.y - l.y, StereoStatus::kOk};
+    measurements[i] = {l.x - r.x, kCoarseSigma, r.y - l.y, StereoStatus::kOk};
   }
   return measurements;
 }
@@ -72,7 +73,7 @@ std::vector<StereoMeasurement> measure_stereo(const StereoEye& left, const Stere
       match_rows(left.features, right.features, pixel_sizes, size.width, size.height, options);
   measurements = options.block_matching ? match_blocks(left.features, right.features, matches, left.levels,
                                                        right.levels, options)
-                                        : from_keypoints(left.features, right.features, matches, options);
+                                        : from_keypoints(left.features, right.features, matches);
   if (options.alignment && left.alignment != nullptr && right.alignment != nullptr)
     align_stereo(left.features.keypoints, *left.alignment, *right.alignment, options, measurements);
   return measurements;

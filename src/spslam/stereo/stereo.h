@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "spslam/alignment/pyramid.h"
-#include "spslam/camera/stereo_rig.h"
 #include "spslam/features/types.h"
 #include "spslam/stereo/options.h"
 #include "spslam/stereo/types.h"
@@ -29,22 +28,5 @@ struct StereoEye {
 // features give an empty or unmeasured result. Same bits at any number of threads.
 std::vector<StereoMeasurement> measure_stereo(const StereoEye& left, const StereoEye& right,
                                               const StereoOptions& options);
-
-struct InverseDepth {
-  double value = 0;  // 1/m, negative where noise made the disparity so
-  double sigma = 0;  // 1/m
-};
-
-// Equation (5) as inverse depth: finite and unbiased at any distance, where the depth itself is neither.
-inline InverseDepth inverse_depth(const StereoMeasurement& m, const StereoRig& rig) {
-  const double scale = 1 / rig.disparity_per_inverse_depth();
-  return {m.disparity * scale, m.sigma * scale};
-}
-
-// Whether the disparity is above its own noise: else the point is a direction without a depth, never a wrong
-// depth.
-inline bool has_depth(const StereoMeasurement& m, double sigmas) {
-  return m.ok() && m.disparity > sigmas * m.sigma;
-}
 
 }  // namespace spslam
