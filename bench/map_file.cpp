@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Saving and loading a map of 500 keyframes with 1000 features and 500 sightings each.
+// Saving and loading a map of 500 keyframes with 1000 features, 500 sightings and an image of 40 kB each.
 
 #include "spslam/system/map_file.h"
 
@@ -13,7 +13,8 @@ namespace {
 using namespace spslam;  // NOLINT
 
 const Map& big_map() {
-  static const Map map = test::made_up_map({.keyframes = 500, .features = 1000, .sightings = 500});
+  static const Map map =
+      test::made_up_map({.keyframes = 500, .features = 1000, .sightings = 500, .image_bytes = 40000});
   return map;
 }
 

@@ -12,7 +12,7 @@
 namespace spslam::test {
 
 struct MadeUpMap {
-  int keyframes = 6, features = 5, sightings = 8;  // a keyframe
+  int keyframes = 6, features = 5, sightings = 8, image_bytes = 5;  // a keyframe
   std::uint64_t seed = 1;
 };
 
@@ -80,7 +80,7 @@ inline Map made_up_map(const MadeUpMap& wanted = {}) {
       keyframe.sightings.push_back(made_up_sighting({3 * i}, random));
     if (k + 1 < wanted.keyframes) {
       keyframe.features = made_up_features(wanted.features, random);
-      keyframe.image = std::make_shared<const ImageBytes>(ImageBytes{1, 2, 3, 4, 5});
+      keyframe.image = std::make_shared<const ImageBytes>(wanted.image_bytes, std::uint8_t{7});
     }
     map.add(std::move(keyframe));
   }

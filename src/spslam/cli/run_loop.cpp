@@ -42,10 +42,10 @@ class ProgressLine {
   void show(int done, const TrackResult& result) {
     if (!shown_ || (done < frames_ && seconds_since(last_) < 0.1)) return;
     last_ = Clock::now();
-    constexpr int kWidth = 24;
-    const int filled = kWidth * done / frames_;
+    constexpr int kBar = 24;
+    const int filled = kBar * done / frames_;
     const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
-                            std::string(static_cast<std::size_t>(kWidth - filled), '.');
+                            std::string(static_cast<std::size_t>(kBar - filled), '.');
     const char* state = state_name(result.status);
     std::fprintf(stderr, "\r[%s] %d/%d  %.1f frames/s  %s  %d near\033[K", bar.c_str(), done, frames_,
                  done / std::max(1e-9, seconds_since(start_)), state, result.near);

@@ -337,9 +337,7 @@ Finding judge_sign(const DisparityStatistics& disparities) {
   if (disparities.matches < static_cast<int>(kFewMatches)) return finding;
   if (seem_swapped(disparities)) {
     finding.judgement = Judgement::kBad;
-    finding.advice =
-        "left and right seem to be swapped: exchange the two folders (or cameras). What else is said of "
-        "disparities is of those exchanged";
+    finding.advice = "left and right seem to be swapped: exchange the two folders (or cameras)";
   } else if (disparities.negative > 0.05) {
     finding.judgement = Judgement::kWarning;
     finding.advice =

@@ -29,7 +29,7 @@ EurocSensor read_sensor(const fs::path& file) {
 // The errors of a pair name both of its files.
 RawStereo raw_pair(const EurocSensor& left, const EurocSensor& right, const fs::path& left_file,
                    const fs::path& right_file) {
-  const RawStereo raw{left.camera, right.camera, right.body_from_camera.inverse() * left.body_from_camera};
+  RawStereo raw{left.camera, right.camera, right.body_from_camera.inverse() * left.body_from_camera};
   try {
     raw.check();
   } catch (const InputError& error) {
