@@ -210,5 +210,22 @@ TEST(Smooth, StandingStillAndOnePlaceAreEnoughAndNoneIsNot) {
   for (const SE3& pose : out) EXPECT_LT((pose * truth.inverse()).log().norm(), 1e-6);
 }
 
+TEST(NearestKeyframes, LookFromNearInTheSameDirection) {
+  Map map;
+  for (int i = 0; i < 6; ++i) {
+    Keyframe keyframe;
+    keyframe.id = {i};
+    if (i > 0) keyframe.parent = {i - 1};
+    keyframe.camera_from_world = SE3{Eigen::Matrix3d::Identity(), {-2.0 * i, 0, 0}};
+    if (i == 3)
+      keyframe.camera_from_world = SE3{so3_exp({0, M_PI, 0}), {0, 0, 0}} * keyframe.camera_from_world;
+    map.add(std::move(keyframe));
+  }
+  const SE3 here{Eigen::Matrix3d::Identity(), {-6.1, 0, 0}};
+  EXPECT_THAT(nearest_keyframes(map, here, 2), testing::ElementsAre(KeyframeId{4}, KeyframeId{2}));
+  EXPECT_EQ(nearest_keyframes(map, here, 10).size(), 5U);
+  EXPECT_TRUE(nearest_keyframes({}, here, 2).empty());
+}
+
 }  // namespace
 }  // namespace spslam

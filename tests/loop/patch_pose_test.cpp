@@ -133,21 +133,24 @@ TEST(KeyframeImage, OtherBytesAreNone) {
   EXPECT_FALSE(compress({}, 90));
 }
 
-TEST(NearestKeyframes, LookFromNearInTheSameDirection) {
+TEST(KeyframesOfPlace, ThoseThatShareMostAndNotTheExcludedOnes) {
   Map map;
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 4; ++i) {
+    Landmark landmark;
+    landmark.id = {i}, landmark.host = {0};
+    map.add(landmark);
+  }
+  for (int k = 0; k < 4; ++k) {  // keyframe k shares 4 - k landmarks with the first
     Keyframe keyframe;
-    keyframe.id = {i};
-    if (i > 0) keyframe.parent = {i - 1};
-    keyframe.camera_from_world = SE3{Eigen::Matrix3d::Identity(), {-2.0 * i, 0, 0}};
-    if (i == 3)
-      keyframe.camera_from_world = SE3{so3_exp({0, M_PI, 0}), {0, 0, 0}} * keyframe.camera_from_world;
+    keyframe.id = {k};
+    for (int i = k; i < 4; ++i) keyframe.sightings.push_back({{i}});
     map.add(std::move(keyframe));
   }
-  const SE3 here{Eigen::Matrix3d::Identity(), {-6.1, 0, 0}};
-  EXPECT_THAT(nearest_keyframes(map, here, 2), testing::ElementsAre(KeyframeId{4}, KeyframeId{2}));
-  EXPECT_EQ(nearest_keyframes(map, here, 10).size(), 5U);
-  EXPECT_TRUE(nearest_keyframes({}, here, 2).empty());
+  const auto of = [&](int count, const std::set<KeyframeId>& exclude) {
+    return keyframes_of_place(map, {0}, count, exclude);
+  };
+  EXPECT_THAT(of(3, {}), testing::ElementsAre(KeyframeId{0}, KeyframeId{1}, KeyframeId{2}));
+  EXPECT_THAT(of(9, {{1}}), testing::ElementsAre(KeyframeId{0}, KeyframeId{2}, KeyframeId{3}));
 }
 
 }  // namespace

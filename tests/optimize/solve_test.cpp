@@ -194,9 +194,13 @@ TEST(SolveDegenerate, APoseThatNothingSeesDoesNotStopTheOthers) {
   disturb(problem, {});
   const SE3 unseen{so3_exp({0.1, 0, 0}), {1, 2, 3}};
   problem.poses.push_back({unseen, false});
-  const SolveSummary summary = solve(problem, thorough());
+  const SolveSummary summary = solve(problem, thorough(), true);
   EXPECT_EQ(summary.status, SolveStatus::kConverged);
   EXPECT_LT(summary.final_cost, 1e-10);
+  const Eigen::Index others = summary.covariance.rows() - 6;
+  ASSERT_GT(others, 0);
+  EXPECT_GT(summary.covariance.diagonal().tail<6>().minCoeff(), 1e6);  // nothing is known of it
+  EXPECT_LT(summary.covariance.diagonal().head(others).maxCoeff(), 1);
   EXPECT_TRUE(problem.poses.back().camera_from_world.matrix3x4().isApprox(unseen.matrix3x4(), 1e-12));
   problem.poses.pop_back();
   EXPECT_LT(largest_translation_error(problem, truth), 1e-6);

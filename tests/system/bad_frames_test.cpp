@@ -147,8 +147,9 @@ TEST_P(BadTimeInTheMiddle, LeavesTheFrameOutAndChangesNothing) {
   const SceneRun run = run_pairs(pairs, sequential_options());
   EXPECT_FALSE(run.results[kBad + 1].frame.valid());
   EXPECT_THAT(run.results[kBad + 1].reason, HasSubstr("left out"));
-  // What is known stays known.
-  EXPECT_EQ(run.results[kBad + 1].status, TrackStatus::kTracking);
+  // What is known stays known, but nothing was measured.
+  EXPECT_EQ(run.results[kBad + 1].status, TrackStatus::kCoasting);
+  EXPECT_EQ(run.results[kBad + 1].covariance, run.results[kBad].covariance);
   EXPECT_EQ(run.results[kBad + 1].world_from_camera.translation,
             run.results[kBad].world_from_camera.translation);
   EXPECT_EQ(run.results[kBad + 2].status, TrackStatus::kTracking);

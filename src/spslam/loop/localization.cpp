@@ -3,13 +3,16 @@
 
 #include "spslam/loop/localization.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace spslam {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr int kPreciseVoice = 2;  // places that are not precise that confirm as much as one that is
+constexpr double kMaxTurn = 40 * kDegree;  // between views that may show the same
+constexpr double kMetresPerRadian = 5;     // a turn is as bad as so much way
+constexpr int kPreciseVoice = 2;           // places that are not precise that confirm as much as one that is
 
 // What is known by both, as far as there is anything.
 std::optional<UncertainPose> both(const std::optional<UncertainPose>& a,
@@ -99,6 +102,22 @@ std::vector<SE3> smooth(const PlacedRun& run, const LocalizationOptions& options
     out[f] = both(before[f], known)->camera_from_world;
     for (; last != run.places.rend() && last->frame == f; ++last) known = both(known, last->pose);
   }
+  return out;
+}
+
+std::vector<KeyframeId> nearest_keyframes(const Map& map, const SE3& camera_from_world, int count) {
+  std::vector<std::pair<double, KeyframeId>> ranked;
+  const Eigen::Vector3d centre = camera_from_world.inverse().translation;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const SE3& pose = keyframe.camera_from_world;
+    const double turn = so3_log(camera_from_world.rotation * pose.rotation.transpose()).norm();
+    if (turn > kMaxTurn) continue;
+    ranked.emplace_back((pose.inverse().translation - centre).norm() + kMetresPerRadian * turn, id);
+  }
+  const std::size_t kept = std::min(ranked.size(), static_cast<std::size_t>(count));
+  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept), ranked.end());
+  std::vector<KeyframeId> out;
+  for (std::size_t i = 0; i < kept; ++i) out.push_back(ranked[i].second);
   return out;
 }
 

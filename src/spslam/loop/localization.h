@@ -103,4 +103,7 @@ struct PlacedRun {
 // smoother, 1969). Empty if there is no place.
 std::vector<SE3> smooth(const PlacedRun& run, const LocalizationOptions& options);
 
+// Keyframes that look from about there in about that direction, nearest first, at most so many.
+std::vector<KeyframeId> nearest_keyframes(const Map& map, const SE3& camera_from_world, int count);
+
 }  // namespace spslam

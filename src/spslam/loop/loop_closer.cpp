@@ -181,7 +181,6 @@ void LoopCloser::examine(const Map& map, const Keyframe& keyframe, LoopCandidate
     return;
   const Place place = place_of(map, rig_, candidate.keyframe, verification_.neighbours);
   Verification verified = verify(place, *keyframe.features, rig_, index_.vocabulary(), verification_);
-  if (verified.accepted()) make_precise(map, keyframe, candidate.keyframe, verified);
   LoopClosure closure = closure_of(keyframe.id, place, verified);
   verified.pairs.clear();
   candidate.verification = std::move(verified);
@@ -193,18 +192,18 @@ void LoopCloser::examine(const Map& map, const Keyframe& keyframe, LoopCandidate
   candidate.confirmed = confirm(map, keyframe, place, candidate);
   if (candidate.confirmed < options_.confirmations) return;
   candidate.stage = LoopStage::kAccepted;
+  make_precise(map, keyframe, candidate);
+  closure.edge.newer_from_older = candidate.verification.newer_from_older;
+  closure.covariance = candidate.verification.covariance;
   attempt.closure = std::move(closure);
 }
 
-// By the patches of the older side's keyframes: of those around the candidate that are not of today.
-void LoopCloser::make_precise(const Map& map, const Keyframe& keyframe, KeyframeId older,
-                              Verification& verified) const {
-  const SE3 older_from_world = map.find(older)->camera_from_world;
-  const std::set<KeyframeId> young = excluded(map, keyframe.id);
-  std::vector<KeyframeId> side = {older};
-  for (const Covisible& near : map.covisible(older))
-    if (static_cast<int>(side.size()) < patches_.keyframes && !young.contains(near.id))
-      side.push_back(near.id);
+// By the patches of the older side's keyframes, those around the candidate that are not of today.
+void LoopCloser::make_precise(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate) const {
+  const SE3 older_from_world = map.find(candidate.keyframe)->camera_from_world;
+  Verification& verified = candidate.verification;
+  const std::vector<KeyframeId> side =
+      keyframes_of_place(map, candidate.keyframe, patches_.keyframes, excluded(map, keyframe.id));
   const auto precise = pose_by_patches(map, rig_, pyramid_of(keyframe, rig_, patches_.alignment),
                                        verified.newer_from_older * older_from_world, side, patches_);
   if (!precise) return;
@@ -212,18 +211,25 @@ void LoopCloser::make_precise(const Map& map, const Keyframe& keyframe, Keyframe
   // Where the two sides' depths are of different scale, one of them is wrong, and the translation as well.
   const Eigen::Vector3d off =
       std::hypot(kScaleError, std::log(verified.scale)) * verified.newer_from_older.translation;
-  verified.covariance = precise->covariance;
-  verified.covariance.topLeftCorner<3, 3>() += off * off.transpose();
+  Matrix6d covariance = precise->covariance;
+  covariance.topLeftCorner<3, 3>() += off * off.transpose();
+  verified.set_covariance(covariance);
+  measure_gap(map, keyframe, candidate);
+}
+
+// What closing would move by.
+void LoopCloser::measure_gap(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate) {
+  const Keyframe& older = *map.find(candidate.keyframe);
+  const SE3 by_odometry = keyframe.camera_from_world * older.camera_from_world.inverse();
+  const SE3& found = candidate.verification.newer_from_older;
+  // Of the camera's centres, so that the turn does not count as a way.
+  candidate.gap = distance_of_centres(found, by_odometry);
+  candidate.turn_gap = degrees(found * by_odometry.inverse());
 }
 
 // A wall that repeats itself looks like a loop that is one period off; but odometry does not drift that much.
 bool LoopCloser::is_plausible(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate) const {
-  const Keyframe& older = *map.find(candidate.keyframe);
-  const SE3 by_odometry = keyframe.camera_from_world * older.camera_from_world.inverse();
-  const SE3 gap = candidate.verification.newer_from_older * by_odometry.inverse();
-  // Of the camera's centres, so that the turn does not count as a way.
-  candidate.gap = distance_of_centres(candidate.verification.newer_from_older, by_odometry);
-  candidate.turn_gap = degrees(gap);
+  measure_gap(map, keyframe, candidate);
   return candidate.gap <= options_.max_drift_floor + options_.max_drift * candidate.way &&
          candidate.turn_gap <= options_.max_turn_drift_floor + options_.max_turn_drift * candidate.way;
 }
@@ -237,9 +243,8 @@ int LoopCloser::confirm(const Map& map, const Keyframe& keyframe, const Place& p
     if (confirmed >= options_.confirmations || tried >= kConfirmersTried * options_.confirmations) break;
     if (!other.features) continue;
     ++tried;
-    Verification verified = verify(place, *other.features, rig_, index_.vocabulary(), verification_);
+    const Verification verified = verify(place, *other.features, rig_, index_.vocabulary(), verification_);
     if (!verified.accepted()) continue;
-    make_precise(map, other, place.id, verified);
     const SE3 expected = other.camera_from_world * keyframe.camera_from_world.inverse() *
                          candidate.verification.newer_from_older;
     const SE3 off = verified.newer_from_older * expected.inverse();

@@ -121,7 +121,8 @@ class LoopCloser {
   std::vector<LoopCandidate> find_candidates(const Map& map, const Keyframe& keyframe, LoopAttempt& attempt);
   void examine(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate,
                LoopAttempt& attempt) const;
-  void make_precise(const Map& map, const Keyframe& keyframe, KeyframeId older, Verification& verified) const;
+  void make_precise(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate) const;
+  static void measure_gap(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate);
   bool is_plausible(const Map& map, const Keyframe& keyframe, LoopCandidate& candidate) const;
   int confirm(const Map& map, const Keyframe& keyframe, const Place& place,
               const LoopCandidate& candidate) const;

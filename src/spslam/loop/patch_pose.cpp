@@ -13,8 +13,6 @@
 namespace spslam {
 namespace {
 
-constexpr double kMaxTurn = M_PI * 40 / 180;  // between views that may show the same
-constexpr double kMetresPerRadian = 5;        // a turn is as bad as so much way
 constexpr double kInlierSigmas = 3.5;
 constexpr double kSecondMove = 0.25;  // of max_move, from where the pose found first puts a patch
 constexpr int kPatchSolverSteps = 20;
@@ -122,19 +120,11 @@ AlignmentPyramid pyramid_of(const Keyframe& keyframe, const StereoRig& rig, cons
                        : AlignmentPyramid(image, options.levels, options.noise_factor > 0);
 }
 
-std::vector<KeyframeId> nearest_keyframes(const Map& map, const SE3& camera_from_world, int count) {
-  std::vector<std::pair<double, KeyframeId>> ranked;
-  const Eigen::Vector3d centre = camera_from_world.inverse().translation;
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    const SE3& pose = keyframe.camera_from_world;
-    const double turn = so3_log(camera_from_world.rotation * pose.rotation.transpose()).norm();
-    if (turn > kMaxTurn) continue;
-    ranked.emplace_back((pose.inverse().translation - centre).norm() + kMetresPerRadian * turn, id);
-  }
-  const std::size_t kept = std::min(ranked.size(), static_cast<std::size_t>(count));
-  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept), ranked.end());
-  std::vector<KeyframeId> out;
-  for (std::size_t i = 0; i < kept; ++i) out.push_back(ranked[i].second);
+std::vector<KeyframeId> keyframes_of_place(const Map& map, KeyframeId reference, int count,
+                                           const std::set<KeyframeId>& exclude) {
+  std::vector<KeyframeId> out = {reference};
+  for (const Covisible& other : map.covisible(reference))
+    if (static_cast<int>(out.size()) < count && !exclude.contains(other.id)) out.push_back(other.id);
   return out;
 }
 

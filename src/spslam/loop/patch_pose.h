@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The SP-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-// Where in the map an image was taken, ten times as precisely as features tell: a place that was recognized
-// says which landmarks are in sight, the patches of their keyframes say where they are. SPEC, last section:
+// Where in the map an image was taken, more precisely than features tell: a place that was recognized says
+// which landmarks are in sight, the patches of their keyframes say where they are. SPEC, last section:
 // identity from ORB, position from the patch.
 #pragma once
+
+#include <set>
 
 #include "spslam/alignment/patch_aligner.h"
 #include "spslam/base/uncertain_pose.h"
@@ -45,7 +47,9 @@ std::optional<UncertainPose> pose_by_patches(const Map& map, const StereoRig& ri
 // Of the keyframe's left image, be it there still or compressed; empty if it has none.
 AlignmentPyramid pyramid_of(const Keyframe& keyframe, const StereoRig& rig, const AlignmentOptions& options);
 
-// Keyframes that look from about there in about that direction, nearest first, at most so many.
-std::vector<KeyframeId> nearest_keyframes(const Map& map, const SE3& camera_from_world, int count);
+// The keyframe that was recognized and those that share most landmarks with it, at most so many, without the
+// excluded ones: those of another side, whose poses do not fit these.
+std::vector<KeyframeId> keyframes_of_place(const Map& map, KeyframeId reference, int count,
+                                           const std::set<KeyframeId>& exclude);
 
 }  // namespace spslam

@@ -23,15 +23,15 @@ bool agree(const Relocalized& a, const Relocalized& b) {
 
 // By patches, where there are any: what was imprecise may be found then.
 void make_precise(const AlignmentPyramid& left, const Map& map, const StereoRig& rig,
-                  const RelocalizationOptions& options, RelocalizationAttempt& attempt) {
+                  const RelocalizationOptions& options, const std::set<KeyframeId>& exclude,
+                  RelocalizationAttempt& attempt) {
   std::optional<Relocalized>& known = attempt.found ? attempt.found : attempt.imprecise;
   if (!known) return;
-  const std::vector<KeyframeId> around =
-      nearest_keyframes(map, known->camera_from_world, options.patches.keyframes);
-  const auto precise = pose_by_patches(map, rig, left, known->camera_from_world, around, options.patches);
+  const std::vector<KeyframeId> place =
+      keyframes_of_place(map, known->reference, options.patches.keyframes, exclude);
+  const auto precise = pose_by_patches(map, rig, left, known->camera_from_world, place, options.patches);
   if (!precise) return;
   known->camera_from_world = precise->camera_from_world, known->covariance = precise->covariance;
-  known->by_patches = true;
   if (attempt.found || precise->position_sigma() > options.verification.max_translation_sigma) return;
   attempt.found = attempt.imprecise;
   attempt.imprecise.reset();
@@ -66,7 +66,7 @@ RelocalizationAttempt relocalize(const SeenFrame& query, const Map& map, const S
   }
   if (contradiction || out.found) out.imprecise.reset();
   if (contradiction) out.found.reset();
-  make_precise(query.left, map, rig, options, out);
+  make_precise(query.left, map, rig, options, exclude, out);
   return out;
 }
 

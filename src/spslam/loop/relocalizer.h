@@ -28,7 +28,6 @@ struct Relocalized {
   Matrix6d covariance = Matrix6d::Identity();  // of a left perturbation of it against the reference, (m, rad)
   KeyframeId reference;                        // the keyframe recognized
   int inliers = 0;
-  bool by_patches = false;  // whether the pose is theirs (patch_pose.h)
 };
 
 struct RelocalizationAttempt {

@@ -94,12 +94,7 @@ class Verifier {
     out_.cells = count_cells();
     if (!trim()) out_.covariance = kUnknown * Matrix6d::Identity();
     add_common_bias();
-    const auto deviation = [&](int first) {
-      const Eigen::Matrix3d block = out_.covariance.block<3, 3>(first, first);
-      return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().maxCoeff());
-    };
-    out_.translation_sigma = deviation(0);
-    out_.rotation_sigma = deviation(3) * 180 / M_PI;
+    out_.set_covariance(out_.covariance);
     if (out_.inliers < options_.min_inlier_share * out_.guided ||
         out_.inliers < options_.min_visible_share * out_.visible)
       return VerificationStage::kShare;
@@ -177,6 +172,16 @@ class Verifier {
 };
 
 }  // namespace
+
+void Verification::set_covariance(const Matrix6d& value) {
+  covariance = value;
+  const auto deviation = [&](int first) {
+    const Eigen::Matrix3d block = covariance.block<3, 3>(first, first);
+    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().maxCoeff());
+  };
+  translation_sigma = deviation(0);
+  rotation_sigma = deviation(3) * 180 / M_PI;
+}
 
 Verification verify(const Place& older, const KeyframeFeatures& newer, const StereoRig& rig,
                     const Vocabulary& vocabulary, const VerificationOptions& options) {

@@ -100,6 +100,7 @@ struct Verification {
   int scaled = 0;
   std::vector<Correspondence> pairs;  // the inliers
 
+  void set_covariance(const Matrix6d& value);  // and the two sigmas
   bool accepted() const { return stage == VerificationStage::kAccepted; }
 };
 

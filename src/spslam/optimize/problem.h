@@ -95,8 +95,8 @@ struct SolveSummary {
   int iterations = 0;
   double initial_cost = 0, final_cost = 0;
   // Inverse of the last (undamped) Hessian of the free poses with the landmarks eliminated, 6 x 6 blocks in
-  // the order of the free poses; empty if it could not be inverted. Perturbations act from the left on
-  // camera_from_world.
+  // the order of the free poses; huge for one that nothing observes, empty if it could not be inverted.
+  // Perturbations act from the left on camera_from_world.
   Eigen::MatrixXd covariance;
   // Information of the disparity offset with everything else eliminated, without its prior; zero if it was
   // fixed.

@@ -25,15 +25,15 @@ Eigen::VectorXd inverse_information(const Eigen::VectorXd& hessian, double dampi
       .select(1 / (hessian.array() * (1 + damping)).max(kLeastInformation), 0.0);
 }
 
-// A pose that nothing observes has empty rows: it stays where it is, and the others do not wait for it. False
-// if there are no others.
-bool hold_unseen(const PoseColumns& columns, ReducedSystem& reduced) {
+// A pose that nothing observes has empty rows: with this information it stays where it is, and the others do
+// not wait for it. False if there are no others.
+bool hold_unseen(const PoseColumns& columns, double information, ReducedSystem& reduced) {
   bool any_seen = false;
   for (int block = 0; block < columns.blocks(); ++block) {
     Eigen::Map<Matrix6d> own = reduced.hessian.block(block, block);
     const Vector6d diagonal = own.diagonal();
     any_seen = any_seen || (diagonal.array() != 0).any();
-    own.diagonal() = (diagonal.array() == 0).select(1, diagonal);
+    own.diagonal() = (diagonal.array() == 0).select(information, diagonal);
   }
   return any_seen;
 }
@@ -45,7 +45,7 @@ Step solve_step(const NormalEquations& equations, const ProblemStructure& struct
   step.landmarks = equations.landmark_gradient;
   if (structure.columns.count > 0) {
     eliminate_landmarks(equations, structure, inverse, damping, reduced);
-    if (!hold_unseen(structure.columns, reduced) || !reduced.hessian.factorize()) return step;
+    if (!hold_unseen(structure.columns, 1, reduced) || !reduced.hessian.factorize()) return step;
     step.poses = -reduced.gradient;
     reduced.hessian.solve(step.poses);
     for (Eigen::Index l = 0; l < step.landmarks.size(); ++l)
@@ -91,6 +91,7 @@ void find_uncertainty(const NormalEquations& equations, const ProblemStructure& 
   if (columns.count == 0) return;
   ReducedSystem reduced;
   eliminate_landmarks(equations, structure, inverse_information(equations.landmark_hessian, 0), 0, reduced);
+  if (!hold_unseen(columns, kLeastInformation, reduced)) return;
   const Eigen::LLT<Eigen::MatrixXd> factor(reduced.hessian.dense(columns.count));
   if (factor.info() != Eigen::Success) return;
   const Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(columns.count, columns.count));

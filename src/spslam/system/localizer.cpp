@@ -8,11 +8,6 @@
 #include "spslam/base/log.h"
 
 namespace spslam {
-namespace {
-
-constexpr double kLostVariance = 1e6;  // m^2 and rad^2: nothing is known
-
-}  // namespace
 
 Localizer::Localizer(const StereoRig& rig, const SlamOptions& options, Map map, const Vocabulary& vocabulary)
     : rig_(rig), options_(options), map_(std::move(map)), index_(vocabulary), filter_(options.localization) {
@@ -44,6 +39,7 @@ void Localizer::finish(const std::vector<TrajectoryPose>& session) {
   take_answers();
   take_over(session);
   smooth_pieces();
+  worker_.rethrow();
 }
 
 TrackResult Localizer::place(const TrackerOutput& odometry) {
@@ -73,7 +69,7 @@ TrackResult Localizer::place(const TrackerOutput& odometry) {
   } else {
     here.status = result.status = TrackStatus::kLost;
     if (result.reason.empty()) result.reason = "not recognized in the map";
-    result.covariance = kLostVariance * Matrix6d::Identity();
+    result.covariance = TrackResult::kLostVariance * Matrix6d::Identity();
   }
   result.entropy = differential_entropy(result.covariance);
   return result;

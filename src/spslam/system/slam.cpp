@@ -17,6 +17,7 @@ namespace {
 SlamOptions session_options(SlamOptions options) {
   options.loop.enabled = false;
   options.tracker.state.relocalization_frames = 0;
+  options.mapper.features.image_quality = 0;
   return options;
 }
 
@@ -59,17 +60,18 @@ TrackResult Slam::track(const StereoFrame& pair) {
   if (!std::isfinite(pair.timestamp) || (last_timestamp_ && pair.timestamp <= *last_timestamp_)) {
     TrackResult refused;
     refused.timestamp = pair.timestamp;
-    refused.status = last_status_;
-    refused.world_from_camera = last_pose_;
+    // What is known stays known, but nothing was measured.
+    refused.status = last_.status == TrackStatus::kTracking ? TrackStatus::kCoasting : last_.status;
+    refused.world_from_camera = last_.world_from_camera;
+    refused.covariance = last_.covariance, refused.entropy = last_.entropy;
     refused.reason =
         "time " + std::to_string(pair.timestamp) + " s is not after the last frame's; the frame is left out";
     return refused;
   }
   last_timestamp_ = pair.timestamp;
   const TrackerOutput output = stages_->track(pair);
-  TrackResult result = localizer_ ? localizer_->place(output) : output.result;
-  last_status_ = result.status, last_pose_ = result.world_from_camera;
-  return result;
+  last_ = localizer_ ? localizer_->place(output) : output.result;
+  return last_;
 }
 
 void Slam::wait_for_map() {
@@ -77,8 +79,14 @@ void Slam::wait_for_map() {
 }
 
 void Slam::finish() {
-  stages_->finish();
+  std::exception_ptr failure;
+  try {
+    stages_->finish();
+  } catch (...) {
+    failure = std::current_exception();  // what was placed until then is smoothed all the same
+  }
   if (localizer_) localizer_->finish(corrected_by(*stages_));
+  if (failure) std::rethrow_exception(failure);
 }
 
 std::vector<TrajectoryPose> Slam::trajectory() const {

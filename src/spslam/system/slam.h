@@ -93,8 +93,7 @@ class Slam {
  private:
   StereoRig rig_;
   std::optional<double> last_timestamp_;  // s
-  TrackStatus last_status_ = TrackStatus::kInitializing;
-  SE3 last_pose_;                         // world_from_camera
+  TrackResult last_;                      // of the last frame that was not left out
   std::unique_ptr<Localizer> localizer_;  // null unless the map is fixed
   std::unique_ptr<Stages> stages_;
 };

@@ -92,6 +92,7 @@ void Stages::take(TrackerOutput& output) {
 }
 
 void Stages::wait_for_map() {
+  if (!is_parallel()) return;
   std::unique_lock lock(view_mutex_);
   mapped_.wait(lock, [&] { return unmapped_ == 0 || mapping_.has_failed() || loop_closing_.has_failed(); });
   rethrow_failure();
